@@ -11,7 +11,7 @@ namespace oikos::mapping {
 
 struct CornerDetectorConfig {
   int cell_px = 26;                ///< at most one new landmark per cell of this size, at 640 x 480 (scaled with the width)
-  double min_response = 60.0;      ///< least eigenvalue of the mean gradient matrix (grey values squared per pixel squared)
+  double min_response = 12.0;      ///< least eigenvalue of the mean gradient matrix (grey values squared per pixel squared)
   double max_depth_m = 8.0;        ///< farther readings make no landmark
   int depth_window_px = 7;         ///< half size of the window in which the surface is fitted
   double max_plane_residual = 2.5; ///< RMS of inverse depth about the fitted plane, in its standard deviations

@@ -14,7 +14,7 @@ struct PatchAlignerConfig {
   double converged_px = 0.02;       ///< a step below this ends the level
   double max_step_px = 3.0;         ///< in pixels of the level; a longer step counts as divergence
   double min_correlation = 0.75;    ///< zero-mean normalised cross-correlation at the answer
-  double min_eigenvalue = 120.0;    ///< least eigenvalue of the mean gradient matrix (grey values squared per pixel squared)
+  double min_eigenvalue = 4.0;    ///< least eigenvalue of the mean gradient matrix (grey values squared per pixel squared)
 };
 
 struct PatchQuery {
