@@ -41,17 +41,6 @@ FileDescriptor openFile(const std::filesystem::path& file, int flags) {
   return descriptor;
 }
 
-void writeAll(const FileDescriptor& descriptor, std::string_view content, const std::filesystem::path& file) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(descriptor.number(), content.data(), content.size());
-    if (written > 0) {
-      content.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno != EINTR) {
-      throwErrno("cannot be written", file);
-    }
-  }
-}
-
 void sync(const std::filesystem::path& file_or_folder) {
   const FileDescriptor descriptor = openFile(file_or_folder, O_RDONLY);
   // Some network file systems know no fsync of a folder and say EINVAL.

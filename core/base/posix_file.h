@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 namespace oikos::base {
 
@@ -26,9 +25,6 @@ class FileDescriptor {
 
 /// `flags` as of open(2); O_CLOEXEC is added. Throws Error{kIo}.
 [[nodiscard]] FileDescriptor openFile(const std::filesystem::path& file, int flags);
-
-/// All of `content`. Throws Error{kIo} that names `file`.
-void writeAll(const FileDescriptor& descriptor, std::string_view content, const std::filesystem::path& file);
 
 /// Returns when a file's content, or a folder's list of names, is on the disk. Throws Error{kIo}.
 void sync(const std::filesystem::path& file_or_folder);

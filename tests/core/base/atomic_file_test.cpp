@@ -41,7 +41,7 @@ class FileSizeLimit {
 };
 
 TEST(AtomicFile, CreatesAndReplacesAndLeavesNothingBeside) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.path() / "report.json";
   writeFileAtomically(file, "one");
   EXPECT_EQ(readTextFile(file), "one");
@@ -51,7 +51,7 @@ TEST(AtomicFile, CreatesAndReplacesAndLeavesNothingBeside) {
 }
 
 TEST(AtomicFile, FullDiskLeavesTheOldContent) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.write("report.json", "old");
   {
     const FileSizeLimit limit(1000);
@@ -73,14 +73,14 @@ TEST(AtomicFile, NamesTheFolderThatDoesNotExist) {
 }
 
 TEST(AtomicFile, FolderInItsPlaceIsAnError) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "taken");
   EXPECT_THROW(writeFileAtomically(folder.path() / "taken", "x"), Error);
   EXPECT_EQ(countFiles(folder.path()), 1);
 }
 
 TEST(TextFile, SaysWhyItCannotBeRead) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THROW(readTextFile(folder.path()), Error);
   EXPECT_THROW(readTextFile(folder.path() / "missing"), Error);
 }

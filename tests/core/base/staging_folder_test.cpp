@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(StagingFolder, IsMadeAndRemoved) {
-  const tests::TemporaryFolder home;
+  const test::TemporaryFolder home;
   const fs::path path = home.path() / ".staging";
   {
     const StagingFolder staging(path);
@@ -29,14 +29,14 @@ TEST(StagingFolder, IsMadeAndRemoved) {
 }
 
 TEST(StagingFolder, StaleContentOfAKilledRunIsRemoved) {
-  const tests::TemporaryFolder home;
+  const test::TemporaryFolder home;
   home.write(".staging/map/half.ply", "half");
   const StagingFolder staging(home.path() / ".staging");
   EXPECT_TRUE(fs::is_empty(staging.path()));
 }
 
 TEST(StagingFolder, SecondWriterIsRefusedUntilTheFirstEnds) {
-  const tests::TemporaryFolder home;
+  const test::TemporaryFolder home;
   const fs::path path = home.path() / ".staging";
   {
     const StagingFolder first(path);
@@ -57,12 +57,12 @@ TEST(StagingFolder, MissingParentIsAnError) {
 }
 
 TEST(StagingFolder, FileInItsPlaceIsAnError) {
-  const tests::TemporaryFolder home;
+  const test::TemporaryFolder home;
   EXPECT_THROW(StagingFolder(home.write(".staging", "a file")), Error);
 }
 
 TEST(StagingFolder, DiscardWinsAgainstAThreadThatKeepsWriting) {
-  const tests::TemporaryFolder home;
+  const test::TemporaryFolder home;
   StagingFolder staging(home.path() / ".staging");
   std::atomic<bool> writing = true;
   std::atomic<int> written = 0;
@@ -81,7 +81,7 @@ TEST(StagingFolder, DiscardWinsAgainstAThreadThatKeepsWriting) {
 }
 
 TEST(PublishFolder, NewFolderAppears) {
-  const tests::TemporaryFolder home;
+  const test::TemporaryFolder home;
   const StagingFolder staging(home.path() / ".staging");
   home.write(".staging/map/grid.pgm", "new");
   syncTree(staging.path());
@@ -91,7 +91,7 @@ TEST(PublishFolder, NewFolderAppears) {
 }
 
 TEST(PublishFolder, ExistingFolderChangesPlaces) {
-  const tests::TemporaryFolder home;
+  const test::TemporaryFolder home;
   home.write("map/grid.pgm", "old");
   home.write("map/only_in_old", "old");
   {
@@ -106,7 +106,7 @@ TEST(PublishFolder, ExistingFolderChangesPlaces) {
 }
 
 TEST(PublishFolder, StagingFolderItselfMayBecomeTheTarget) {
-  const tests::TemporaryFolder parent;
+  const test::TemporaryFolder parent;
   {
     const StagingFolder staging(parent.path() / ".home.staging");
     parent.write(".home.staging/home.xml", "<apartment/>");
@@ -116,7 +116,7 @@ TEST(PublishFolder, StagingFolderItselfMayBecomeTheTarget) {
 }
 
 TEST(PublishFolder, MissingParentOfTheTargetIsAnErrorAndKeepsTheStaged) {
-  const tests::TemporaryFolder home;
+  const test::TemporaryFolder home;
   const StagingFolder staging(home.path() / ".staging");
   home.write(".staging/map/grid.pgm", "new");
   EXPECT_THROW(publishFolder(staging.path() / "map", home.path() / "missing/map"), Error);
@@ -124,7 +124,7 @@ TEST(PublishFolder, MissingParentOfTheTargetIsAnErrorAndKeepsTheStaged) {
 }
 
 TEST(PublishFile, ReplacesAndCreates) {
-  const tests::TemporaryFolder home;
+  const test::TemporaryFolder home;
   const auto staged = home.write(".staging/home.xml", "new");
   home.write("home.xml", "old");
   publishFile(staged, home.path() / "home.xml");
