@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/text_file.h"
+#include "core/base/read_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oikos::base {
@@ -44,9 +44,9 @@ TEST(AtomicFile, CreatesAndReplacesAndLeavesNothingBeside) {
   const test::TemporaryFolder folder;
   const auto file = folder.path() / "report.json";
   writeFileAtomically(file, "one");
-  EXPECT_EQ(readTextFile(file), "one");
+  EXPECT_EQ(readFile(file), "one");
   writeFileAtomically(file, std::string("two\0two", 7));
-  EXPECT_EQ(readTextFile(file), std::string("two\0two", 7));
+  EXPECT_EQ(readFile(file), std::string("two\0two", 7));
   EXPECT_EQ(countFiles(folder.path()), 1);
 }
 
@@ -57,7 +57,7 @@ TEST(AtomicFile, FullDiskLeavesTheOldContent) {
     const FileSizeLimit limit(1000);
     EXPECT_THROW(writeFileAtomically(file, std::string(5000, 'x')), Error);
   }
-  EXPECT_EQ(readTextFile(file), "old");
+  EXPECT_EQ(readFile(file), "old");
   EXPECT_EQ(countFiles(folder.path()), 1);
 }
 
@@ -81,8 +81,8 @@ TEST(AtomicFile, FolderInItsPlaceIsAnError) {
 
 TEST(TextFile, SaysWhyItCannotBeRead) {
   const test::TemporaryFolder folder;
-  EXPECT_THROW(readTextFile(folder.path()), Error);
-  EXPECT_THROW(readTextFile(folder.path() / "missing"), Error);
+  EXPECT_THROW(readFile(folder.path()), Error);
+  EXPECT_THROW(readFile(folder.path() / "missing"), Error);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/base/error.h"
-#include "core/base/text_file.h"
+#include "core/base/read_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oikos::base {
@@ -86,7 +86,7 @@ TEST(PublishFolder, NewFolderAppears) {
   home.write(".staging/map/grid.pgm", "new");
   syncTree(staging.path());
   publishFolder(staging.path() / "map", home.path() / "map");
-  EXPECT_EQ(readTextFile(home.path() / "map/grid.pgm"), "new");
+  EXPECT_EQ(readFile(home.path() / "map/grid.pgm"), "new");
   EXPECT_FALSE(fs::exists(staging.path() / "map"));
 }
 
@@ -98,9 +98,9 @@ TEST(PublishFolder, ExistingFolderChangesPlaces) {
     const StagingFolder staging(home.path() / ".staging");
     home.write(".staging/map/grid.pgm", "new");
     publishFolder(staging.path() / "map", home.path() / "map");
-    EXPECT_EQ(readTextFile(staging.path() / "map/grid.pgm"), "old");
+    EXPECT_EQ(readFile(staging.path() / "map/grid.pgm"), "old");
   }
-  EXPECT_EQ(readTextFile(home.path() / "map/grid.pgm"), "new");
+  EXPECT_EQ(readFile(home.path() / "map/grid.pgm"), "new");
   EXPECT_FALSE(fs::exists(home.path() / "map/only_in_old"));
   EXPECT_FALSE(fs::exists(home.path() / ".staging"));
 }
@@ -112,7 +112,7 @@ TEST(PublishFolder, StagingFolderItselfMayBecomeTheTarget) {
     parent.write(".home.staging/home.xml", "<apartment/>");
     publishFolder(staging.path(), parent.path() / "home");
   }
-  EXPECT_EQ(readTextFile(parent.path() / "home/home.xml"), "<apartment/>");
+  EXPECT_EQ(readFile(parent.path() / "home/home.xml"), "<apartment/>");
 }
 
 TEST(PublishFolder, MissingParentOfTheTargetIsAnErrorAndKeepsTheStaged) {
@@ -120,7 +120,7 @@ TEST(PublishFolder, MissingParentOfTheTargetIsAnErrorAndKeepsTheStaged) {
   const StagingFolder staging(home.path() / ".staging");
   home.write(".staging/map/grid.pgm", "new");
   EXPECT_THROW(publishFolder(staging.path() / "map", home.path() / "missing/map"), Error);
-  EXPECT_EQ(readTextFile(staging.path() / "map/grid.pgm"), "new");
+  EXPECT_EQ(readFile(staging.path() / "map/grid.pgm"), "new");
 }
 
 TEST(PublishFile, ReplacesAndCreates) {
@@ -128,7 +128,7 @@ TEST(PublishFile, ReplacesAndCreates) {
   const auto staged = home.write(".staging/home.xml", "new");
   home.write("home.xml", "old");
   publishFile(staged, home.path() / "home.xml");
-  EXPECT_EQ(readTextFile(home.path() / "home.xml"), "new");
+  EXPECT_EQ(readFile(home.path() / "home.xml"), "new");
   EXPECT_FALSE(fs::exists(staged));
 }
 
