@@ -146,7 +146,7 @@ class Builder {
                                     graph_.nodes[host].velocity,
                                     graph_.nodes[node].velocity,
                                     static_cast<double>(start_.camera.height),
-                                    1.0 / config_.pixel_sigma_px};
+                                    1.0 / (config_.pixel_sigma_px * (1 << o.level))};
     const auto id = problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ProjectionCost, 2, 7, 7, 1, 4, 1>(cost),
                                              new ceres::CauchyLoss(config_.cauchy_sigmas), host_pose, seen_pose, inverse_depth,
                                              parameters_.lens.data(), &parameters_.readout_s);

@@ -30,7 +30,7 @@ PoseSolution solveOne(const KeyframeGraph& graph, const TrackedFrame& frame, con
   for (const Observation& o : frame.observations) {
     const Landmark& landmark = graph.landmarks[static_cast<std::size_t>(o.landmark)];
     const Eigen::Vector2d pixel = o.pixel.cast<double>();
-    sightings.push_back({pointInWorld(graph, landmark, calibration), pixel, static_cast<double>(o.depth_m) * calibration.depth_scale, pixel_sigma_px,
+    sightings.push_back({pointInWorld(graph, landmark, calibration), pixel, static_cast<double>(o.depth_m) * calibration.depth_scale, pixel_sigma_px * (1 << o.level),
                          rowTime_s(pixel.y(), calibration)});
   }
   PoseSolverConfig config;
