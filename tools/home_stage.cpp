@@ -81,7 +81,7 @@ void HomeStage::commit() {
 
 void HomeStage::publish() {
   if (is_new_) {
-    base::publishFolder(staging_->path(), home_);
+    base::publishNewFolder(staging_->path(), home_);
     return;
   }
   // A home.xml without a map is a valid home, a map without a home.xml is not: hence this order.

@@ -50,7 +50,7 @@ void declareOptions(CLI::App& command, MapOptions& options) {
   command.add_option("--features", options.features, "sift or orb");
   command.add_option("--resolution", options.resolution, "edge of a voxel in metres, 0.01 to 1; default 0.05");
   command.add_flag("--every-frame", options.every_frame, "build the volume from every frame, not from keyframes only");
-  command.add_option("--set", options.settings, "any parameter, as KEY=VALUE; may be repeated");
+  command.add_option("--set", options.settings, "any parameter, as KEY=VALUE; may be repeated")->allow_extra_args(false);
   auto* const robot = command.add_option("--robot", options.robot, "URDF of the robot that carries the camera");
   auto* const camera_link = command.add_option("--camera-link", options.links.camera, "its optical link (z forward, y down)");
   auto* const base_link = command.add_option("--base-link", options.links.base, "its base link (x forward, z up, on the floor)");
