@@ -22,40 +22,43 @@ struct InverseDepthPlane {
   double sigma;
 };
 
-/// Least squares plane through the window's inverse depths; nothing where readings are few or no plane fits them.
-std::optional<InverseDepthPlane> fitSurface(const cv::Mat& depth_m, const Eigen::Vector2i& centre, const CornerDetectorConfig& config) {
-  const int radius = config.depth_window_px;
+struct Reading {
+  double x, y;  ///< offset from the centre, pixels
+  double inverse_depth;
+};
+
+struct Window {
+  std::vector<Reading> readings;
+  int pixels = 0;
+};
+
+Window readWindow(const cv::Mat& depth_m, const Eigen::Vector2i& centre, int radius) {
+  Window window;
+  for (int y = std::max(0, centre.y() - radius); y <= std::min(depth_m.rows - 1, centre.y() + radius); ++y) {
+    const float* row = depth_m.ptr<float>(y);
+    for (int x = std::max(0, centre.x() - radius); x <= std::min(depth_m.cols - 1, centre.x() + radius); ++x) {
+      ++window.pixels;
+      if (row[x] > 0.0F) {
+        window.readings.push_back({static_cast<double>(x - centre.x()), static_cast<double>(y - centre.y()), 1.0 / static_cast<double>(row[x])});
+      }
+    }
+  }
+  return window;
+}
+
+/// Least squares plane through inverse depths; nothing where no plane fits them.
+std::optional<InverseDepthPlane> fitPlane(const std::vector<Reading>& readings, const CornerDetectorConfig& config) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   double squares = 0.0;
-  int readings = 0;
-  int pixels = 0;
-  for (int y = centre.y() - radius; y <= centre.y() + radius; y += 2) {
-    if (y < 0 || y >= depth_m.rows) {
-      continue;
-    }
-    for (int x = centre.x() - radius; x <= centre.x() + radius; x += 2) {
-      if (x < 0 || x >= depth_m.cols) {
-        continue;
-      }
-      ++pixels;
-      const double z = depth_m.at<float>(y, x);
-      if (!(z > 0.0)) {
-        continue;
-      }
-      const Eigen::Vector3d j(x - centre.x(), y - centre.y(), 1.0);
-      const double inverse = 1.0 / z;
-      A.noalias() += j * j.transpose();
-      b += inverse * j;
-      squares += inverse * inverse;
-      ++readings;
-    }
-  }
-  if (readings < 12 || readings * 10 < pixels * 6) {
-    return std::nullopt;
+  for (const Reading& r : readings) {
+    const Eigen::Vector3d j(r.x, r.y, 1.0);
+    A.noalias() += j * j.transpose();
+    b += r.inverse_depth * j;
+    squares += r.inverse_depth * r.inverse_depth;
   }
   const Eigen::Vector3d plane = A.ldlt().solve(b);
-  const double variance = std::max(0.0, (squares - plane.dot(b)) / readings);
+  const double variance = std::max(0.0, (squares - plane.dot(b)) / static_cast<double>(readings.size()));
   if (!plane.allFinite() || plane.z() < 1.0 / config.max_depth_m) {
     return std::nullopt;
   }
@@ -65,6 +68,34 @@ std::optional<InverseDepthPlane> fitSurface(const cv::Mat& depth_m, const Eigen:
   }
   // Neighbouring readings share their error: the mean of a window is hardly better than half a reading's deviation.
   return InverseDepthPlane{plane.z(), plane.head<2>(), std::max(0.5 * expected, std::sqrt(variance) * 0.5)};
+}
+
+/// The surface at a corner. Where the window holds an edge, the nearer side: texture at an edge mostly belongs to it.
+std::optional<InverseDepthPlane> fitSurface(const cv::Mat& depth_m, const Eigen::Vector2i& centre, const CornerDetectorConfig& config) {
+  constexpr double kNearerSide = 0.93;  ///< of the greatest inverse depth
+  Window window = readWindow(depth_m, centre, config.depth_window_px);
+  if (static_cast<int>(window.readings.size()) * 10 < window.pixels * 3) {
+    return std::nullopt;
+  }
+  if (static_cast<int>(window.readings.size()) * 10 >= window.pixels * 6) {
+    if (auto plane = fitPlane(window.readings, config)) {
+      return plane;
+    }
+  }
+  std::vector<Reading>& readings = window.readings;
+  const auto tenth = readings.begin() + static_cast<std::ptrdiff_t>(readings.size() / 10);
+  std::nth_element(readings.begin(), tenth, readings.end(), [](const Reading& a, const Reading& b) { return a.inverse_depth > b.inverse_depth; });
+  const double nearest = tenth->inverse_depth;
+  std::erase_if(readings, [&](const Reading& r) { return r.inverse_depth < kNearerSide * nearest; });
+  if (static_cast<int>(readings.size()) * 10 < window.pixels * 3) {
+    return std::nullopt;
+  }
+  auto plane = fitPlane(readings, config);
+  if (plane) {
+    plane->sigma *= 2.0;
+    plane->gradient.setZero();
+  }
+  return plane;
 }
 
 struct Corner {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Observation {
   int landmark = -1;
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();              ///< level 0
   float depth_m = std::numeric_limits<float>::quiet_NaN();      ///< the depth image's reading there; NaN = none
+  std::int8_t level = 0;                                        ///< pyramid level of the finest alignment: the error grows by 2^level
 };
 
 [[nodiscard]] inline Eigen::Vector3d pointInHost(const Landmark& landmark, const camera::PinholeCamera& camera) {

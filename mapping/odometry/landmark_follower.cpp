@@ -69,6 +69,7 @@ double projectionSigma_px(const Candidate& c, const camera::PinholeCamera& camer
 struct Sightings {
   std::vector<char> in_view;
   std::vector<std::optional<Eigen::Vector2d>> pixel;
+  std::vector<std::int8_t> level;
 };
 
 void search(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera, int coarsest_level,
@@ -87,6 +88,7 @@ void search(const TargetView& view, const std::vector<Candidate>& candidates, co
     const PatchMatch match = alignPatch(*candidates[i].host, *view.pyramid, *query, config.patch);
     if (match.found && view.camera->contains(match.target_px, 1.0)) {
       sightings.pixel[i] = match.target_px;
+      sightings.level[i] = static_cast<std::int8_t>(match.level);
     }
   }
 }
@@ -105,7 +107,7 @@ Solved solve(const TargetView& view, const std::vector<Candidate>& candidates, c
     if (sightings.pixel[i]) {
       const Candidate& c = candidates[i];
       points.push_back({c.T_world_host * pointInHost(*c.value, *view.camera), *sightings.pixel[i], depthAt(view, *sightings.pixel[i]),
-                        projectionSigma_px(c, *view.camera, T_camera_world, config.pixel_sigma_px)});
+                        projectionSigma_px(c, *view.camera, T_camera_world, config.pixel_sigma_px * (1 << sightings.level[i]))});
       solved.candidate.push_back(i);
     }
   }
@@ -126,7 +128,8 @@ void forgetOutliers(const Solved& solved, Sightings& sightings) {
 FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera_predicted,
                              const FollowerConfig& config) {
   FollowResult result;
-  Sightings sightings{std::vector<char>(candidates.size(), 0), std::vector<std::optional<Eigen::Vector2d>>(candidates.size())};
+  Sightings sightings{std::vector<char>(candidates.size(), 0), std::vector<std::optional<Eigen::Vector2d>>(candidates.size()),
+                      std::vector<std::int8_t>(candidates.size(), 0)};
   search(view, candidates, T_world_camera_predicted, config.coarsest_level, config, sightings);
   Solved solved = solve(view, candidates, sightings, T_world_camera_predicted, config);
   if (solved.pose.status == PoseStatus::kConverged) {
@@ -145,7 +148,7 @@ FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate
   for (std::size_t k = 0; k < solved.candidate.size(); ++k) {
     if (solved.pose.inlier[k] != 0) {
       const std::size_t i = solved.candidate[k];
-      result.observations.push_back({candidates[i].landmark, sightings.pixel[i]->cast<float>(), depthAt(view, *sightings.pixel[i])});
+      result.observations.push_back({candidates[i].landmark, sightings.pixel[i]->cast<float>(), depthAt(view, *sightings.pixel[i]), sightings.level[i]});
     }
   }
   result.tracked = result.pose.inliers >= config.min_inliers && result.pose.inliers >= config.min_inlier_ratio * result.found;

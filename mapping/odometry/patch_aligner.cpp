@@ -180,26 +180,25 @@ PatchMatch alignPatch(const ImagePyramid& host, const ImagePyramid& target, cons
   std::array<float, kBorderedSide * kBorderedSide> patch;
   Template t;
   for (int level = std::min(query.coarsest_level, target.levels() - 1); level >= 0; --level) {
-    const bool usable = warpPatch(host, query, level, patch) && prepare(patch, level == 0 ? config.min_eigenvalue : 0.25 * config.min_eigenvalue, t);
-    if (!usable) {
-      if (level == 0) {
-        return match;
-      }
+    if (!warpPatch(host, query, level, patch) || !prepare(patch, config.min_eigenvalue, t)) {
       continue;  // a coarse level may leave the image, or be plain: the finer ones decide
     }
     Eigen::Vector2d position(toLevel(match.target_px.x(), level), toLevel(match.target_px.y(), level));
     double correlation = 0.0;
-    const LevelStatus status = alignLevel(t, target.level(level), config, position, correlation);
-    if (status == LevelStatus::kDiverged) {
-      if (level == 0) {
-        return match;
-      }
+    if (alignLevel(t, target.level(level), config, position, correlation) == LevelStatus::kDiverged) {
+      continue;
+    }
+    const bool agrees = correlation >= config.min_correlation;
+    if (match.found && !agrees) {
       continue;
     }
     match.target_px = {fromLevel(position.x(), level), fromLevel(position.y(), level)};
-    match.correlation = correlation;
+    if (agrees && level <= config.coarsest_answer) {
+      match.found = true;
+      match.correlation = correlation;
+      match.level = level;
+    }
   }
-  match.found = match.correlation >= config.min_correlation;
   return match;
 }
 

@@ -14,7 +14,8 @@ struct PatchAlignerConfig {
   double converged_px = 0.02;       ///< a step below this ends the level
   double max_step_px = 3.0;         ///< in pixels of the level; a longer step counts as divergence
   double min_correlation = 0.75;    ///< zero-mean normalised cross-correlation at the answer
-  double min_eigenvalue = 120.0;    ///< least eigenvalue of the mean gradient matrix (grey values squared per pixel squared)
+  int coarsest_answer = 2;          ///< a patch that aligns down to this level but not further is an answer too, a coarse one
+  double min_eigenvalue = 4.0;    ///< least eigenvalue of the mean gradient matrix (grey values squared per pixel squared)
 };
 
 struct PatchQuery {
@@ -27,7 +28,8 @@ struct PatchQuery {
 struct [[nodiscard]] PatchMatch {
   bool found = false;
   Eigen::Vector2d target_px = Eigen::Vector2d::Zero();  ///< level 0
-  double correlation = 0.0;                             ///< zero-mean normalised cross-correlation at the finest level
+  double correlation = 0.0;                             ///< zero-mean normalised cross-correlation at `level`
+  int level = 0;                                        ///< finest level that could be aligned; above 0 where the image is blurred
 };
 
 PatchMatch alignPatch(const ImagePyramid& host, const ImagePyramid& target, const PatchQuery& query, const PatchAlignerConfig& config);

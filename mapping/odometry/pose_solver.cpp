@@ -22,9 +22,16 @@ struct Residual {
   Eigen::Matrix<double, 3, 6> J = Eigen::Matrix<double, 3, 6>::Zero();
 };
 
-Residual residualOf(const PointSighting& s, const camera::PinholeCamera& camera, const Eigen::Isometry3d& T_camera_world) {
+/// The camera with its motion.
+struct Motion {
+  Eigen::Isometry3d T_camera_world;
+  geometry::Vector6d velocity;
+};
+
+Residual residualOf(const PointSighting& s, const camera::PinholeCamera& camera, const Motion& motion) {
   Residual r;
-  const Eigen::Vector3d p = T_camera_world * s.point_world;
+  Eigen::Vector3d p = motion.T_camera_world * s.point_world;
+  p -= s.time_s * (motion.velocity.head<3>() + motion.velocity.tail<3>().cross(p));
   if (p.z() < 0.05) {
     return r;
   }
@@ -53,12 +60,11 @@ struct NormalEquations {
 
 double huberWeight(double norm, double limit) { return norm <= limit ? 1.0 : limit / norm; }
 
-NormalEquations linearise(const std::vector<PointSighting>& sightings, const camera::PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+NormalEquations linearise(const std::vector<PointSighting>& sightings, const camera::PinholeCamera& camera, const Motion& motion,
                           const std::vector<char>& use, const PoseSolverConfig& config) {
   NormalEquations n;
-  const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const Residual r = use[i] != 0 ? residualOf(sightings[i], camera, T_camera_world) : Residual{};
+    const Residual r = use[i] != 0 ? residualOf(sightings[i], camera, motion) : Residual{};
     if (!r.valid) {
       continue;
     }
@@ -74,12 +80,13 @@ NormalEquations linearise(const std::vector<PointSighting>& sightings, const cam
   return n;
 }
 
-void markInliers(const std::vector<PointSighting>& sightings, const camera::PinholeCamera& camera, double outlier_sigmas, PoseSolution& solution) {
-  const Eigen::Isometry3d T_camera_world = solution.T_world_camera.inverse();
+void markInliers(const std::vector<PointSighting>& sightings, const camera::PinholeCamera& camera, double outlier_sigmas,
+                 const geometry::Vector6d& velocity, PoseSolution& solution) {
+  const Motion motion{solution.T_world_camera.inverse(), velocity};
   solution.inliers = 0;
   double squares_px = 0.0;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const Residual r = residualOf(sightings[i], camera, T_camera_world);
+    const Residual r = residualOf(sightings[i], camera, motion);
     const bool inlier = r.valid && r.whitened.head<2>().norm() < outlier_sigmas && (!r.has_depth || std::abs(r.whitened.z()) < 3.0 * outlier_sigmas);
     solution.inlier[i] = inlier ? 1 : 0;
     if (inlier) {
@@ -90,9 +97,10 @@ void markInliers(const std::vector<PointSighting>& sightings, const camera::Pinh
   solution.rms_px = solution.inliers > 0 ? std::sqrt(squares_px / solution.inliers) : 0.0;
 }
 
-bool iterate(const std::vector<PointSighting>& sightings, const camera::PinholeCamera& camera, const PoseSolverConfig& config, PoseSolution& solution) {
+bool iterate(const std::vector<PointSighting>& sightings, const camera::PinholeCamera& camera, const PoseSolverConfig& config,
+             const geometry::Vector6d& velocity, PoseSolution& solution) {
   for (int iteration = 0; iteration < config.max_iterations; ++iteration) {
-    const NormalEquations n = linearise(sightings, camera, solution.T_world_camera, solution.inlier, config);
+    const NormalEquations n = linearise(sightings, camera, {solution.T_world_camera.inverse(), velocity}, solution.inlier, config);
     geometry::Matrix6d H = n.H;
     H.diagonal().array() += 1e-9 * H.trace();
     const geometry::Vector6d step = -H.ldlt().solve(n.g);
@@ -110,7 +118,7 @@ bool iterate(const std::vector<PointSighting>& sightings, const camera::PinholeC
 }  // namespace
 
 PoseSolution solvePose(const std::vector<PointSighting>& sightings, const camera::PinholeCamera& camera,
-                       const Eigen::Isometry3d& T_world_camera_start, const PoseSolverConfig& config) {
+                       const Eigen::Isometry3d& T_world_camera_start, const PoseSolverConfig& config, const geometry::Vector6d& velocity) {
   PoseSolution solution;
   solution.T_world_camera = T_world_camera_start;
   solution.inlier.assign(sightings.size(), 1);
@@ -119,18 +127,18 @@ PoseSolution solvePose(const std::vector<PointSighting>& sightings, const camera
   }
   // A wide gate first: the start may be off by several pixels.
   for (const double gate : {4.0 * config.outlier_sigmas, config.outlier_sigmas, config.outlier_sigmas}) {
-    if (!iterate(sightings, camera, config, solution)) {
+    if (!iterate(sightings, camera, config, velocity, solution)) {
       solution.T_world_camera = T_world_camera_start;
       solution.status = PoseStatus::kDegenerate;
       return solution;
     }
-    markInliers(sightings, camera, gate, solution);
+    markInliers(sightings, camera, gate, velocity, solution);
     if (solution.inliers < kMinInliers) {
       solution.status = PoseStatus::kTooFewSightings;
       return solution;
     }
   }
-  const NormalEquations n = linearise(sightings, camera, solution.T_world_camera, solution.inlier, config);
+  const NormalEquations n = linearise(sightings, camera, {solution.T_world_camera.inverse(), velocity}, solution.inlier, config);
   const Eigen::SelfAdjointEigenSolver<geometry::Matrix6d> eigen(n.H);
   if (eigen.eigenvalues().minCoeff() < 1e-9 * eigen.eigenvalues().maxCoeff()) {
     solution.status = PoseStatus::kDegenerate;

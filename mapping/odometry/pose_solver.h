@@ -16,6 +16,7 @@ struct PointSighting {
   Eigen::Vector2d pixel;
   double depth_m;            ///< the depth image's reading there; NaN = none
   double pixel_sigma_px;     ///< of the place's projection and of the sighting together
+  double time_s = 0.0;       ///< exposure of the pixel's row after the stamp (rolling shutter)
 };
 
 struct PoseSolverConfig {
@@ -38,8 +39,10 @@ struct [[nodiscard]] PoseSolution {
 
 /// The camera pose that best explains sightings of known points: reprojection and, where there is one, depth residual, weighted by
 /// their noise, with Huber's kernel; Gauss-Newton over SE(3) from `T_world_camera_start`. A sighting farther out than
-/// `outlier_sigmas` is left out of the last iterations.
+/// `outlier_sigmas` is left out of the last iterations. `velocity`: the camera's body twist (m/s, rad/s) during the read-out; the pose
+/// returned is that at the stamp.
 PoseSolution solvePose(const std::vector<PointSighting>& sightings, const camera::PinholeCamera& camera,
-                       const Eigen::Isometry3d& T_world_camera_start, const PoseSolverConfig& config);
+                       const Eigen::Isometry3d& T_world_camera_start, const PoseSolverConfig& config,
+                       const geometry::Vector6d& velocity = geometry::Vector6d::Zero());
 
 }  // namespace oikos::mapping
