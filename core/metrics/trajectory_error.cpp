@@ -106,7 +106,7 @@ IndexPairs pairsByPath(const std::vector<double>& distances_m, const TrajectoryE
   for (std::size_t i = 0; i < distances_m.size(); ++i) {
     const double target_m = distances_m[i] + config.distance_m;
     const auto j = findNearestDistance(distances_m, i, target_m);
-    if (j && std::abs(distances_m[*j] - target_m) <= config.distance_slack_m) {
+    if (j && std::abs(distances_m[*j] - target_m) <= config.distance_slack_ratio * config.distance_m) {
       indices.emplace_back(i, *j);
     }
   }
@@ -171,7 +171,7 @@ std::vector<std::string> TrajectoryErrorConfig::validate() const {
   requirePositive("interval_s", interval_s);
   requirePositive("interval_slack_s", interval_slack_s);
   requirePositive("distance_m", distance_m);
-  requirePositive("distance_slack_m", distance_slack_m);
+  requirePositive("distance_slack_ratio", distance_slack_ratio);
   return problems;
 }
 

@@ -36,11 +36,11 @@ struct TrajectoryErrorConfig {
   geometry::AlignmentScale scale = geometry::AlignmentScale::kFixed;
   SecondPairs second_pairs = SecondPairs::kAtOrAfter;
   MetrePairs metre_pairs = MetrePairs::kAlongEstimate;
-  double max_association_s = 0.02;  ///< an estimate farther from every true stamp has no pair
-  double interval_s = 1.0;          ///< of the relative error by time
-  double interval_slack_s = 0.03;   ///< pairs whose time differs more from `interval_s` are left out
-  double distance_m = 1.0;          ///< of the relative error by path
-  double distance_slack_m = 0.1;    ///< pairs whose path differs more from `distance_m` are left out; evo's tenth
+  double max_association_s = 0.02;    ///< an estimate farther from every true stamp has no pair
+  double interval_s = 1.0;            ///< of the relative error by time
+  double interval_slack_s = 0.03;     ///< pairs whose time differs more from `interval_s` are left out
+  double distance_m = 1.0;            ///< of the relative error by path
+  double distance_slack_ratio = 0.1;  ///< pairs whose path differs more, as a share of `distance_m`, are left out; evo's tenth
 
   /// What is wrong, a line each; empty when all is well.
   [[nodiscard]] std::vector<std::string> validate() const;

@@ -153,7 +153,7 @@ TEST(TrajectoryError, AMetreAlongTheEstimateOrTheTruth) {
     truth.push_back(poseAt(i, {0.1 * i, 0, 0}));
     estimate.push_back(poseAt(i, {0.1 * i, 0.1 * (i % 2), 0}));
   }
-  const TrajectoryErrorConfig along_truth{.metre_pairs = MetrePairs::kAlongTruth, .distance_slack_m = 0.05};
+  const TrajectoryErrorConfig along_truth{.metre_pairs = MetrePairs::kAlongTruth, .distance_slack_ratio = 0.05};
   EXPECT_EQ(evaluateTrajectory(estimate, truth, along_truth).per_distance.translation_m.count, 31);
   // Its zigzag is 0.141 m a step: 7 steps are 0.99 m. The seventh is always on the other side: 0.1 m off.
   const TrajectoryError along_estimate = evaluateTrajectory(estimate, truth);
@@ -199,7 +199,7 @@ TEST(TrajectoryError, ALineIsMeasuredButCalledUndetermined) {
 }
 
 TEST(TrajectoryError, ConfigurationSaysWhatIsWrong) {
-  const TrajectoryErrorConfig wrong{.interval_s = 0.0, .distance_slack_m = -0.5};
+  const TrajectoryErrorConfig wrong{.interval_s = 0.0, .distance_slack_ratio = -0.5};
   ASSERT_EQ(wrong.validate().size(), 2U);
   EXPECT_EQ(wrong.validate()[0], "trajectory_error.interval_s = 0: must be > 0");
   EXPECT_THROW(static_cast<void>(evaluateTrajectory({}, {}, wrong)), base::ContractViolation);
