@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <utility>
 
 #include "core/base/error.h"
+#include "core/metrics/error_statistics.h"
 #include "mapping/report/html.h"
 #include "mapping/report/text.h"
 
@@ -17,13 +20,13 @@ namespace {
 constexpr double kWidth = 1000.0;
 constexpr double kLeft = 58.0;
 constexpr double kRight = 988.0;
-constexpr double kTop = 22.0;
-constexpr double kBottom = 176.0;
-constexpr double kStripTop = 182.0;
+constexpr double kTop = 30.0;
+constexpr double kBottom = 184.0;
+constexpr double kStripTop = 190.0;
 constexpr double kStripHeight = 8.0;
-constexpr double kLabelBaseline = 208.0;
-constexpr double kHeight = 216.0;
-constexpr std::size_t kMaxBins = 310;  ///< three units each: what an eye can tell apart
+constexpr double kLabelBaseline = 216.0;
+constexpr double kHeight = 224.0;
+constexpr std::size_t kMaxBins = 465;  ///< two units each: what an eye can tell apart
 
 /// A stretch of the drive.
 struct Bin {
@@ -67,8 +70,11 @@ Bin binOf(const MapReport& report, const std::vector<double>& values, std::size_
                std::back_inserter(finite), [](double value) { return std::isfinite(value); });
   bin.time_s = 0.5 * (sinceStart(report, begin) + sinceStart(report, end - 1));
   if (!finite.empty()) {
-    std::sort(finite.begin(), finite.end());
-    bin = {bin.time_s, finite.front(), finite[finite.size() / 2], finite.back(), false};
+    const auto [least, greatest] = std::minmax_element(finite.begin(), finite.end());
+    bin.least = *least;
+    bin.greatest = *greatest;
+    bin.empty = false;
+    bin.middle = metrics::statisticsOf(std::move(finite)).median;
   }
   return bin;
 }

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/number_text.h"
 #include "mapping/report/figures.h"
 #include "mapping/report/frame_plot.h"
 #include "mapping/report/html.h"
@@ -47,12 +46,13 @@ std::string tile(const std::string& value, const std::string& meaning) {
 }
 
 std::string tiles(const MapReport& report, const ReportFigures& figures) {
+  const bool floor_found = report.floor.status == FloorStatus::kFound;
   return "<div class=\"figures\">\n" + tile(shareText(figures.frames - figures.lost, figures.frames), "of the frames have a place") +
          tile(lengthText(figures.path_m), "of path in " + numberText(figures.drive_s, 0) + " s") +
          tile(countText(figures.loops_accepted), "loops closed") +
          tile(report.trajectory_before_loops.empty() ? "–" : lengthText(figures.largest_correction_m), "largest correction by loops") +
          tile(numberText(figures.median_residual_px, 2) + " px", "residual, median frame") +
-         tile(numberText(figures.free_area_m2, 1) + " m²", "of floor known free") + "</div>\n";
+         tile(floor_found ? numberText(figures.free_area_m2, 1) + " m²" : "–", "of floor known free") + "</div>\n";
 }
 
 std::string key(const std::string& style_class, const std::string& text) {
@@ -136,14 +136,14 @@ std::string volumeSection(const MapReport& report) {
 }
 
 std::string optimisationSection(const OptimisationFacts& optimisation) {
-  std::string html = factTable({{"cost before", numberText(optimisation.initial_cost, 2)},
-                                {"cost after", numberText(optimisation.final_cost, 2)},
+  std::string html = factTable({{"cost before", numberText(optimisation.initial_cost, 1)},
+                                {"cost after", numberText(optimisation.final_cost, 1)},
                                 {"iterations", countText(optimisation.iterations)},
                                 {"settled", optimisation.converged ? "yes" : "no"}});
   if (!optimisation.refined.empty()) {
     html += "<table>\n<tr><th>calibration</th><th class=\"number\">before</th><th class=\"number\">after</th></tr>\n";
     for (const RefinedValue& value : optimisation.refined) {
-      html += "<tr>" + element("th", "", value.name) + element("td", "number", base::toText(value.before)) +
+      html += "<tr>" + element("th", "", value.name) + element("td", "number", numberText(value.before, 6)) +
               element("td", "number", numberText(value.after, 6)) + "</tr>\n";
     }
     html += "</table>\n";

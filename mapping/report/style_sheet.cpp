@@ -38,7 +38,7 @@ section { background: var(--card); border: 1px solid var(--rule); border-radius:
 .legend i.dash { border-top-style: dashed; border-top-width: 2px; }
 .legend i.box { height: 10px; width: 10px; border: 0; border-radius: 2px; }
 .legend i.dot { border-radius: 50%; }
-.key-after { color: var(--after); } .key-before { color: var(--before); } .key-loop { color: var(--loop); } .key-refused { color: var(--rule-strong); }
+.key-after { color: var(--after); } .key-before { color: var(--before); } .key-loop { color: var(--loop); } .key-refused { color: var(--soft); }
 .key-start { background: var(--good); } .key-end { background: var(--lost); }
 .key-tracked { background: var(--good); } .key-relocalised { background: var(--found); }
 .key-coasting { background: var(--coast); } .key-lost { background: var(--lost); }
@@ -48,8 +48,8 @@ svg path, svg line { fill: none; vector-effect: non-scaling-stroke; stroke-linej
 .map { border-radius: 8px; background: var(--ground); }
 .grid { image-rendering: pixelated; }
 .after { stroke: var(--after); stroke-width: 2.5; } .before { stroke: var(--before); stroke-width: 1.8; opacity: .85; }
-.loop { stroke: var(--loop); stroke-width: 1.4; opacity: .75; } .refused { stroke: var(--rule-strong); stroke-width: 1.2; stroke-dasharray: 4 4; }
-.keyframes { stroke: var(--after); stroke-width: 5; }
+.loop { stroke: var(--loop); stroke-width: 1.4; opacity: .75; } .refused { stroke: var(--soft); stroke-width: 1.2; stroke-dasharray: 4 4; }
+.keyframes { stroke: var(--after); stroke-width: 4.5; }
 .start { fill: var(--good); stroke: var(--card); stroke-width: 2; } .end { fill: var(--lost); stroke: var(--card); stroke-width: 2; }
 .scale { stroke: var(--ink); stroke-width: 1.5; }
 .scale-text { font-size: 15px; text-anchor: middle; fill: var(--ink); }
@@ -61,16 +61,22 @@ svg path, svg line { fill: none; vector-effect: non-scaling-stroke; stroke-linej
 .plot .inliers { color: var(--after); } .plot .residual { color: var(--loop); }
 rect.tracked { fill: var(--good); opacity: .45; } rect.relocalised { fill: var(--found); } rect.coasting { fill: var(--coast); } rect.lost { fill: var(--lost); }
 .scroll { overflow-x: auto; }
+table + table { margin-top: 14px; }
 table { border-collapse: collapse; width: 100%; font-size: 14px; }
 th, td { text-align: left; padding: 6px 14px 6px 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
 th { color: var(--soft); font-weight: 500; }
 td.number, th.number { text-align: right; }
+td.number { white-space: nowrap; }
+td:last-child, th:last-child { padding-right: 0; }
 tr:last-child th, tr:last-child td { border-bottom: 0; }
-td.text { overflow-wrap: anywhere; }
-.columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 16px; }
+td.text { overflow-wrap: anywhere; padding-left: 12px; }
+td.text:first-child { padding-left: 0; }
+th + th:not(.number) { padding-left: 12px; }
+.columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(380px, 100%), 1fr)); gap: 16px; }
 .columns section { margin: 0; }
 .columns { margin: 0 0 16px; }
 .note { color: var(--soft); font-size: 13px; margin: 10px 0 0; }
+@media (max-width: 640px) { .plot text { font-size: 22px; } .scale-text { font-size: 26px; } section { padding: 16px; } }
 @media print {
   :root { color-scheme: light; --ground: #ffffff; --card: #ffffff; --ink: #000000; --soft: #444444; --rule: #cccccc; --rule-strong: #999999;
     --after: #0b7a6f; --before: #d9822b; --loop: #6554c0; --lost: #c9372c; --good: #1f845a; --care: #b65c02; --coast: #e0a100; --found: #388bff; }

@@ -2,6 +2,8 @@
 #include "mapping/report/summary.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "mapping/report/text.h"
@@ -16,12 +18,49 @@ constexpr double kManySkipped = 0.05;     ///< share of listed frames
 constexpr double kHighResidual_px = 2.0;  ///< well-calibrated cameras stay below one pixel
 constexpr double kLongPath_m = 5.0;       ///< without a loop, drift over more than this goes unnoticed
 constexpr int kFewestFrames = 2;
+constexpr std::size_t kStretchesNamed = 3;
 
 double share(int part, int whole) {
   return whole > 0 ? static_cast<double>(part) / whole : 0.0;
 }
 
 using Findings = std::vector<Finding>;
+
+struct Stretch {
+  std::size_t begin = 0;  ///< first frame
+  std::size_t end = 0;    ///< one past the last
+};
+
+/// The longest first; of equally long ones the earlier.
+std::vector<Stretch> lostStretches(const std::vector<FrameFacts>& frames) {
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].status != FrameStatus::kLost) {
+      continue;
+    }
+    if (stretches.empty() || stretches.back().end != i) {
+      stretches.push_back({i, i});
+    }
+    stretches.back().end = i + 1;
+  }
+  std::stable_sort(stretches.begin(), stretches.end(),
+                   [](const Stretch& a, const Stretch& b) { return a.end - a.begin > b.end - b.begin; });
+  return stretches;
+}
+
+/// "at 8.1–10.0 ss, 12.4–12.5 s and elsewhere": the longest few.
+std::string whereLost(const MapReport& report) {
+  const auto since_start = [&report](std::size_t frame) {
+    const std::int64_t passed_ns = report.trajectory[frame].stamp_ns - report.trajectory.front().stamp_ns;
+    return numberText(static_cast<double>(passed_ns) * 1e-9, 1);
+  };
+  const std::vector<Stretch> stretches = lostStretches(report.frames);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kStretchesNamed, stretches.size()); ++i) {
+    text += (i == 0 ? "at " : ", ") + since_start(stretches[i].begin) + "–" + since_start(stretches[i].end - 1) + " s";
+  }
+  return text + (stretches.size() > kStretchesNamed ? " and elsewhere" : "");
+}
 
 void judgeTracking(const MapReport& report, const ReportFigures& figures, Findings& findings) {
   if (figures.frames - figures.lost < kFewestFrames) {
@@ -36,8 +75,8 @@ void judgeTracking(const MapReport& report, const ReportFigures& figures, Findin
                                                  : MapVerdict::kUsable;
     findings.push_back(
         {weight,
-         "The camera was lost in " + countedText(figures.lost, "frame", "frames") + " (" + shareText(figures.lost, figures.frames) +
-             "); each keeps the pose before it.",
+         "The camera was lost in " + countedText(figures.lost, "frame", "frames") + " (" + shareText(figures.lost, figures.frames) + "), " +
+             whereLost(report) + " of the drive; each keeps the pose before it.",
          weight == MapVerdict::kUsable ? "" : "Drive these stretches again, slower, and turn where there is something to see."});
   }
   if (const int apart = report.submaps - report.submaps_joined; apart > 0) {
