@@ -143,8 +143,8 @@ Summary buildHome(const MapOptions& options, const Session& session) {
 
 }  // namespace
 
-void addMapCommand(CLI::App& program) {
-  CLI::App& command = addCommand(program, {"map", "Builds the metric map of a home from a recorded drive.", kExamples});
+void addMap(CLI::App& root) {
+  CLI::App& command = addCommand(root, {"map", "Builds the metric map of a home from a recorded drive.", kExamples});
   const auto options = std::make_shared<MapOptions>();
   declareOptions(command, *options);
   setAction(command, [options](const Session& session) {
