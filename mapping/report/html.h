@@ -10,4 +10,7 @@ namespace oikos::mapping {
 /// characters, which no HTML document may hold, become U+FFFD.
 [[nodiscard]] std::string escapeHtml(std::string_view text);
 
+/// For data URIs (RFC 4648).
+[[nodiscard]] std::string base64(std::string_view bytes);
+
 }  // namespace oikos::mapping
