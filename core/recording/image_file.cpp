@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/read_file.h"
+#include "core/recording/depth_png.h"
 
 namespace oikos::recording {
 
@@ -85,19 +86,7 @@ cv::Mat readColorImage(const std::filesystem::path& file) {
 }
 
 cv::Mat readDepthImage(const std::filesystem::path& file) {
-  const std::string bytes = base::readFile(file);
-  if (!isPng(bytes)) {
-    throw Error(ErrorCode::kInput, bytes.empty() ? "the file is empty" : "not a PNG file; depth must be a 16-bit grey PNG", file.string());
-  }
-  cv::Mat depth = decodePng(bytes, cv::IMREAD_UNCHANGED, file);
-  if (depth.depth() != CV_16U) {
-    throw Error(ErrorCode::kInput, "8-bit depth; depth must be a 16-bit grey PNG", file.string());
-  }
-  if (depth.channels() != 1) {
-    throw Error(ErrorCode::kInput, "depth with " + std::to_string(depth.channels()) + " channels; it must be a 16-bit grey PNG",
-                file.string());
-  }
-  return depth;
+  return decodeDepthPng(base::readFile(file), file);
 }
 
 }  // namespace oikos::recording
