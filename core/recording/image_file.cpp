@@ -54,8 +54,11 @@ cv::Mat decodeJpeg(const std::string& bytes, bool color, const std::filesystem::
   return image;
 }
 
-/// The PNG decoder does report a truncated file: as an empty image.
+/// The PNG decoder does report a corrupt file, as an empty image, but it prints too: what was cut off is found out without it.
 cv::Mat decodePng(const std::string& bytes, int mode, const std::filesystem::path& file) {
+  if (bytes.rfind("IEND") == std::string::npos) {
+    failTruncated(file, "the file ends early");
+  }
   const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));  // only read
   cv::Mat image = cv::imdecode(encoded, mode);
   if (image.empty()) {
