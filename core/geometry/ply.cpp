@@ -113,7 +113,7 @@ class Source {
     double value = 0.0;
     const auto [end, failure] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
     if (failure != std::errc{}) {
-      fail("'" + std::string(rest_.substr(0, 20)) + "' is not a number");
+      fail(std::string(rest_.substr(0, 20)).append(" is not a number"));
     }
     rest_ = trimmed(rest_.substr(static_cast<std::size_t>(end - rest_.data())));
     return value;
