@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace oikos::base {
+
+/// Nanoseconds since 1970-01-01T00:00:00Z of a time such as `2024-05-17T09:30:00.25+02:00` (RFC 3339, years 1700 to 2200; a space may stand
+/// for the T). Nothing if it is anything else, a date that does not exist and a time without offset included.
+[[nodiscard]] std::optional<std::int64_t> parseRfc3339Ns(std::string_view text);
+
+}  // namespace oikos::base
