@@ -17,8 +17,19 @@ struct OccupancyConfig {
   double probability_max = 0.971;
   double occupied_threshold = 0.5;  ///< occupied from this probability on
   int pixel_stride = 2;             ///< every n-th pixel of every n-th row makes a ray
-  int threads = 1;                  ///< same bits for any number
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("resolution_m", resolution_m);
+    visitor("min_range_m", min_range_m);
+    visitor("max_range_m", max_range_m);
+    visitor("probability_hit", probability_hit);
+    visitor("probability_miss", probability_miss);
+    visitor("probability_min", probability_min);
+    visitor("probability_max", probability_max);
+    visitor("occupied_threshold", occupied_threshold);
+    visitor("pixel_stride", pixel_stride);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 

@@ -40,16 +40,18 @@ void forShare(std::size_t count, std::size_t block, std::size_t worker, std::siz
 
 }  // namespace
 
-OccupancyIntegrator::OccupancyIntegrator(const OccupancyConfig& config)
+OccupancyIntegrator::OccupancyIntegrator(const OccupancyConfig& config, int threads)
     : config_(config),
+      threads_(threads),
       lattice_(config.resolution_m),
       log_odds_hit_(logOdds(config.probability_hit)),
       log_odds_miss_(logOdds(config.probability_miss)),
       log_odds_min_(logOdds(config.probability_min)),
       log_odds_max_(logOdds(config.probability_max)),
       log_odds_threshold_(logOdds(config.occupied_threshold)),
-      workers_(static_cast<std::size_t>(std::max(1, config.threads))) {
+      workers_(static_cast<std::size_t>(std::max(1, threads))) {
   OIKOS_CHECK(config.validate().empty());
+  OIKOS_CHECK(threads >= 1);
 }
 
 void OccupancyIntegrator::insert(const OccupancyScan& scan) {
@@ -59,7 +61,7 @@ void OccupancyIntegrator::insert(const OccupancyScan& scan) {
 }
 
 std::vector<VoxelKey> OccupancyIntegrator::findEndpoints(std::span<const Eigen::Vector3f> points) {
-  base::parallelFor(static_cast<int>(workers_.size()), config_.threads, [&](int w) {
+  base::parallelFor(static_cast<int>(workers_.size()), threads_, [&](int w) {
     VoxelSet& mine = workers_[static_cast<std::size_t>(w)].occupied;
     mine.clear();
     forShare(points.size(), kPointBlock, static_cast<std::size_t>(w), workers_.size(), [&](std::size_t i) {
@@ -77,7 +79,7 @@ std::vector<VoxelKey> OccupancyIntegrator::findEndpoints(std::span<const Eigen::
 }
 
 void OccupancyIntegrator::castRays(const Eigen::Vector3f& origin, std::span<const VoxelKey> endpoints) {
-  base::parallelFor(static_cast<int>(workers_.size()), config_.threads, [&](int w) {
+  base::parallelFor(static_cast<int>(workers_.size()), threads_, [&](int w) {
     RaySets& mine = workers_[static_cast<std::size_t>(w)];
     mine.free.clear();
     mine.occupied.clear();
@@ -123,7 +125,7 @@ void OccupancyIntegrator::update() {
     targets[i] = &brickAt(occupied.brick(i));
   }
   const VoxelSet::Bits none{};
-  base::parallelFor(static_cast<int>(workers_.size()), config_.threads, [&](int w) {
+  base::parallelFor(static_cast<int>(workers_.size()), threads_, [&](int w) {
     forShare(targets.size(), kBrickBlock, static_cast<std::size_t>(w), workers_.size(), [&](std::size_t i) {
       const VoxelSet::Bits* passed = free.find(occupied.brick(i));
       updateBrick(passed != nullptr ? *passed : none, occupied.bitsOf(i), *targets[i]);

@@ -34,11 +34,11 @@ struct OccupancyBrick {
 /// sequence of OctoMap 1.9's `OcTree::insertPointCloud(points, origin, max_range, false, true)`: the same ray arithmetic, the
 /// same precedence of readings over rays, the same float sums and clamps. Points that are not finite, or whose voxel number does
 /// not fit an int, are passed over (OctoMap's result for them is undefined). Memory grows with the voxels known: 4.4 bytes each
-/// in full bricks. Not thread-safe; works on `config.threads` threads inside, with the same bits for any number.
+/// in full bricks. Not thread-safe; works on `threads` threads inside, with the same bits for any number.
 class OccupancyIntegrator {
  public:
   /// Throws ContractViolation when `config.validate()` objects.
-  explicit OccupancyIntegrator(const OccupancyConfig& config);
+  OccupancyIntegrator(const OccupancyConfig& config, int threads);
 
   void insert(const OccupancyScan& scan);
 
@@ -67,6 +67,7 @@ class OccupancyIntegrator {
   OccupancyBrick& brickAt(VoxelKey brick);
 
   OccupancyConfig config_;
+  int threads_;
   VoxelLattice lattice_;
   float log_odds_hit_;
   float log_odds_miss_;

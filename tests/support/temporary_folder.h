@@ -1,35 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <stdlib.h>
-
 #include <filesystem>
-#include <stdexcept>
 #include <string>
+#include <string_view>
 
-namespace oikos::test {
+namespace oikos::tests {
 
-/// An empty folder that is gone with the object.
+/// An empty folder of its own, removed with everything in it at the end.
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "oikos-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error("no temporary folder " + name);
-    }
-    path_ = name;
-  }
+  TemporaryFolder();
+  ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Creates a file (and the folders on its way) with this content.
+  std::filesystem::path write(const std::filesystem::path& name, std::string_view content) const;
 
  private:
   std::filesystem::path path_;
 };
 
-}  // namespace oikos::test
+}  // namespace oikos::tests

@@ -62,8 +62,8 @@ void expectSameVoxels(const OccupancyIntegrator& ours, octomap::OcTree& theirs) 
   EXPECT_EQ(ours_count, theirs_count);
 }
 
-void expectEqual(const std::vector<OccupancyScan>& scans, const OccupancyConfig& config) {
-  OccupancyIntegrator ours(config);
+void expectEqual(const std::vector<OccupancyScan>& scans, const OccupancyConfig& config, int threads = 2) {
+  OccupancyIntegrator ours(config, threads);
   octomap::OcTree theirs(config.resolution_m);
   configure(config, theirs);
   for (const OccupancyScan& scan : scans) {
@@ -78,10 +78,10 @@ void expectEqual(const std::vector<OccupancyScan>& scans, const OccupancyConfig&
 }
 
 std::vector<OccupancyScan> roomScans(const OccupancyConfig& config, int count) {
-  const test::AnalyticRoom room = test::AnalyticRoom::furnished();
-  const camera::PinholeCamera camera = test::smallCamera();
+  const tests::AnalyticRoom room = tests::AnalyticRoom::furnished();
+  const camera::PinholeCamera camera = tests::smallCamera();
   std::vector<OccupancyScan> scans;
-  for (const Eigen::Isometry3d& T_map_camera : test::lookAround(count, 0.3, 1.3, 0.4)) {
+  for (const Eigen::Isometry3d& T_map_camera : tests::lookAround(count, 0.3, 1.3, 0.4)) {
     const camera::RgbdFrame frame = room.render(camera, T_map_camera);
     scans.push_back(makeScan({frame, camera, T_map_camera}, config));
   }
@@ -138,8 +138,7 @@ TEST(OccupancyIntegrator, EqualsOctomapOnRandomRays) {
     OccupancyConfig config;
     config.resolution_m = seed % 2 == 0 ? 0.05 : 0.07;
     config.max_range_m = seed % 3 == 0 ? 2.0 : 10.0;
-    config.threads = 1 + static_cast<int>(seed % 3);
-    expectEqual(randomScans(seed, config.resolution_m), config);
+    expectEqual(randomScans(seed, config.resolution_m), config, 1 + static_cast<int>(seed % 3));
   }
 }
 
@@ -186,7 +185,7 @@ TEST(OccupancyIntegrator, PassesOverPointsThatAreNotNumbers) {
 }
 
 TEST(OccupancyIntegrator, NothingInNothingOut) {
-  OccupancyIntegrator occupancy{OccupancyConfig{}};
+  OccupancyIntegrator occupancy(OccupancyConfig{}, 1);
   occupancy.insert(OccupancyScan{});
   EXPECT_FALSE(occupancy.findLogOdds(packVoxelKey(32768, 32768, 32768)).has_value());
   EXPECT_EQ(makeOctomapTree(occupancy)->size(), 0U);
@@ -195,9 +194,8 @@ TEST(OccupancyIntegrator, NothingInNothingOut) {
 TEST(OccupancyIntegrator, SameBitsForAnyNumberOfThreads) {
   std::string first;
   for (const int threads : {1, 2, 3, 7}) {
-    OccupancyConfig config;
-    config.threads = threads;
-    OccupancyIntegrator occupancy(config);
+    const OccupancyConfig config;
+    OccupancyIntegrator occupancy(config, threads);
     for (const OccupancyScan& scan : roomScans(config, 4)) {
       occupancy.insert(scan);
     }
@@ -210,17 +208,17 @@ TEST(OccupancyIntegrator, SameBitsForAnyNumberOfThreads) {
 TEST(OccupancyIntegrator, RefusesAConfigurationThatMakesNoSense) {
   OccupancyConfig config;
   config.resolution_m = 0.5;
-  EXPECT_EQ(config.validate(), std::vector<std::string>{"occupancy.resolution_m = 0.5: must be 0.01 to 0.1"});
-  EXPECT_THROW(OccupancyIntegrator{config}, base::ContractViolation);
+  EXPECT_EQ(config.validate(), std::vector<std::string>{"resolution_m = 0.5: must be from 0.01 to 0.1"});
+  EXPECT_THROW(OccupancyIntegrator(config, 1), base::ContractViolation);
 }
 
 TEST(OctomapFiles, OctomapReadsThemBack) {
   OccupancyConfig config;
-  OccupancyIntegrator occupancy(config);
+  OccupancyIntegrator occupancy(config, 1);
   for (const OccupancyScan& scan : roomScans(config, 6)) {
     occupancy.insert(scan);
   }
-  const test::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   writeOctomap(occupancy, folder.path());
   const std::unique_ptr<octomap::AbstractOcTree> read(octomap::AbstractOcTree::read((folder.path() / "octomap.ot").string()));
   auto* full = dynamic_cast<octomap::OcTree*>(read.get());
@@ -238,12 +236,12 @@ TEST(OctomapFiles, OctomapReadsThemBack) {
 }
 
 TEST(OctomapFiles, FullDiskIsAnErrorThatNamesTheFile) {
-  OccupancyIntegrator occupancy{OccupancyConfig{}};
+  OccupancyIntegrator occupancy(OccupancyConfig{}, 1);
   for (const OccupancyScan& scan : roomScans(occupancy.config(), 2)) {
     occupancy.insert(scan);
   }
   for (const char* name : {"octomap.bt", "octomap.ot"}) {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     std::filesystem::create_symlink("/dev/full", folder.path() / (std::string(name) + ".part"));
     try {
       writeOctomap(occupancy, folder.path());

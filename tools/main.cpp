@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/program.h"
+
+int main(int argc, char** argv) {
+  oikos::tools::Program program;
+  return static_cast<int>(program.run(argc, argv));
+}
