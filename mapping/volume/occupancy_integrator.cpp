@@ -80,11 +80,13 @@ std::vector<VoxelKey> OccupancyIntegrator::findEndpoints(std::span<const Eigen::
 
 void OccupancyIntegrator::castRays(const Eigen::Vector3f& origin, std::span<const VoxelKey> endpoints) {
   base::parallelFor(static_cast<int>(workers_.size()), threads_, [&](int w) {
-    RaySets& mine = workers_[static_cast<std::size_t>(w)];
+    Worker& mine = workers_[static_cast<std::size_t>(w)];
     mine.free.clear();
     mine.occupied.clear();
+    mine.rays.clear();
     forShare(endpoints.size(), kRayBlock, static_cast<std::size_t>(w), workers_.size(),
-             [&](std::size_t i) { castRay(origin, endpoints[i], mine); });
+             [&](std::size_t i) { addRay(origin, endpoints[i], mine); });
+    markRays(lattice_, mine.rays, mine.free);
   });
   for (std::size_t w = 1; w < workers_.size(); ++w) {
     workers_[0].free.merge(workers_[w].free);
@@ -92,18 +94,18 @@ void OccupancyIntegrator::castRays(const Eigen::Vector3f& origin, std::span<cons
   }
 }
 
-void OccupancyIntegrator::castRay(const Eigen::Vector3f& origin, VoxelKey endpoint, RaySets& sets) const {
+void OccupancyIntegrator::addRay(const Eigen::Vector3f& origin, VoxelKey endpoint, Worker& worker) const {
   const RaySegment ray{origin, lattice_.center(endpoint)};
   const double length = rayLength(ray);
-  if (length <= config_.max_range_m) {
-    markRay(lattice_, ray, sets.free);
-    if (const auto key = lattice_.findKey(ray.end)) {
-      sets.occupied.insert(*key);
-    }
+  if (length > config_.max_range_m) {
+    const Eigen::Vector3f direction = (ray.end - origin) / static_cast<float>(length);
+    worker.rays.push_back({origin, origin + direction * static_cast<float>(config_.max_range_m)});
     return;
   }
-  const Eigen::Vector3f direction = (ray.end - origin) / static_cast<float>(length);
-  markRay(lattice_, {origin, origin + direction * static_cast<float>(config_.max_range_m)}, sets.free);
+  worker.rays.push_back(ray);
+  if (const auto key = lattice_.findKey(ray.end)) {
+    worker.occupied.insert(*key);
+  }
 }
 
 OccupancyBrick& OccupancyIntegrator::brickAt(VoxelKey brick) {

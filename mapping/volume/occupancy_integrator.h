@@ -54,14 +54,16 @@ class OccupancyIntegrator {
   void forEachBrick(const std::function<void(VoxelKey, const OccupancyBrick&)>& visit) const;
 
  private:
-  struct RaySets {
+  /// Scratch of one thread.
+  struct Worker {
+    std::vector<RaySegment> rays;
     VoxelSet free;
     VoxelSet occupied;
   };
 
   std::vector<VoxelKey> findEndpoints(std::span<const Eigen::Vector3f> points);
   void castRays(const Eigen::Vector3f& origin, std::span<const VoxelKey> endpoints);
-  void castRay(const Eigen::Vector3f& origin, VoxelKey endpoint, RaySets& sets) const;
+  void addRay(const Eigen::Vector3f& origin, VoxelKey endpoint, Worker& worker) const;
   void update();
   void updateBrick(const VoxelSet::Bits& passed, const VoxelSet::Bits& hit, OccupancyBrick& brick) const;
   OccupancyBrick& brickAt(VoxelKey brick);
@@ -77,7 +79,7 @@ class OccupancyIntegrator {
 
   BrickIndex index_;
   std::vector<std::unique_ptr<OccupancyBrick>> bricks_;
-  std::vector<RaySets> workers_;  ///< scratch, one a thread
+  std::vector<Worker> workers_;
 };
 
 }  // namespace oikos::mapping

@@ -2,7 +2,6 @@
 #include "mapping/volume/octomap_tree.h"
 
 #include <algorithm>
-#include <span>
 
 namespace oikos::mapping {
 
@@ -57,24 +56,24 @@ class FillableTree : public octomap::OcTree {
     node->updateOccupancyChildren();
   }
 
-  static bool isKnown(const OccupancyBrick& brick, unsigned place) { return ((brick.known[place / 64] >> (place % 64)) & 1U) != 0; }
-
+  /// `count` is 512, 64, 8 or 1, and `first` a multiple of it.
   static bool isAnyKnown(const OccupancyBrick& brick, unsigned first, unsigned count) {
-    for (unsigned place = first; place < first + count; ++place) {
-      if (isKnown(brick, place)) {
-        return true;
-      }
+    if (count >= 64) {
+      return std::any_of(&brick.known[first / 64], &brick.known[first / 64] + count / 64, [](std::uint64_t word) { return word != 0; });
     }
-    return false;
+    return ((brick.known[first / 64] >> (first % 64)) & ((1ULL << count) - 1)) != 0;
+  }
+
+  static bool isAllKnown(const OccupancyBrick& brick, unsigned first, unsigned count) {
+    if (count >= 64) {
+      return std::all_of(&brick.known[first / 64], &brick.known[first / 64] + count / 64, [](std::uint64_t word) { return ~word == 0; });
+    }
+    return (~(brick.known[first / 64] >> (first % 64)) & ((1ULL << count) - 1)) == 0;
   }
 
   static bool isUniform(const OccupancyBrick& brick, unsigned first, unsigned count) {
-    for (unsigned place = first; place < first + count; ++place) {
-      if (!isKnown(brick, place) || brick.log_odds[place] != brick.log_odds[first]) {
-        return false;
-      }
-    }
-    return true;
+    const float* begin = brick.log_odds.data() + first;
+    return isAllKnown(brick, first, count) && std::all_of(begin, begin + count, [&](float value) { return value == *begin; });
   }
 
   void finishRecursive(octomap::OcTreeNode* node, unsigned depth) {

@@ -4,8 +4,8 @@
 // compiled without contraction of floating-point expressions (set in CMakeLists.txt).
 #include "mapping/volume/voxel_ray.h"
 
-#include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace oikos::mapping {
 
@@ -32,24 +32,133 @@ Axis startAxis(const VoxelLattice& lattice, std::uint16_t number, float origin, 
   return axis;
 }
 
-/// Sets bits along a path that mostly stays in one brick.
-class PathMarker {
- public:
-  PathMarker(VoxelSet& voxels, VoxelKey first) : voxels_(voxels), brick_(brickOf(first)), bits_(&voxels.bits(brick_)) {}
+/// Everything about a ray that the traversal needs, or nothing if it passes no voxel.
+struct Traversal {
+  Axis axes[3];
+  VoxelKey first = 0;
+  VoxelKey last = 0;
+  double length = 0.0;
+};
 
-  void mark(VoxelKey key) {
-    if (brickOf(key) != brick_) {
-      brick_ = brickOf(key);
-      bits_ = &voxels_.bits(brick_);
+std::optional<Traversal> startTraversal(const VoxelLattice& lattice, const RaySegment& ray) {
+  const auto first = lattice.findKey(ray.origin);
+  const auto last = lattice.findKey(ray.end);
+  if (!first || !last || *first == *last) {
+    return std::nullopt;
+  }
+  const float length = static_cast<float>(rayLength(ray));
+  const auto numbers = unpackVoxelKey(*first);
+  Traversal traversal{{}, *first, *last, static_cast<double>(length)};
+  for (int a = 0; a < 3; ++a) {
+    const float direction = (ray.end[a] - ray.origin[a]) / length;
+    traversal.axes[a] = startAxis(lattice, numbers[static_cast<std::size_t>(a)], ray.origin[a], direction, a * kVoxelKeyShift);
+  }
+  return traversal;
+}
+
+/// Rays are traversed four at a time in vector registers: which axis is next is a coin toss that a branch would lose.
+constexpr int kLanes = 4;
+using Doubles = double __attribute__((vector_size(kLanes * sizeof(double))));
+using Words = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
+
+class RayBundle {
+ public:
+  RayBundle(const VoxelLattice& lattice, std::span<const RaySegment> rays, VoxelSet& voxels)
+      : lattice_(lattice), rays_(rays), voxels_(voxels) {}
+
+  void markAll() {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      refill(lane);
     }
-    const unsigned place = placeInBrick(key);
-    (*bits_)[place / 64] |= std::uint64_t{1} << (place % 64);
+    while (live_ > 0) {
+      for (int lane = 0; lane < kLanes; ++lane) {
+        mark(lane);
+      }
+      advance();
+      if ((done_[0] | done_[1] | done_[2] | done_[3]) != 0) {
+        for (int lane = 0; lane < kLanes; ++lane) {
+          if (done_[lane] != 0) {
+            refill(lane);
+          }
+        }
+      }
+    }
   }
 
  private:
+  struct Place {
+    VoxelKey brick = ~VoxelKey{0};
+    std::uint32_t number = 0;
+    bool live = false;
+  };
+
+  /// The lane's ray is over: puts the next one in. Without one the lane rests: it never moves, marks nothing, is never done.
+  void refill(int lane) {
+    Place& place = places_[lane];
+    live_ -= place.live ? 1 : 0;
+    place.live = false;
+    std::optional<Traversal> ray;
+    while (!ray && next_ray_ < rays_.size()) {
+      ray = startTraversal(lattice_, rays_[next_ray_++]);
+    }
+    if (ray) {
+      place.live = true;
+      ++live_;
+    } else {
+      ray = Traversal{{}, 0, ~VoxelKey{0}, std::numeric_limits<double>::infinity()};
+    }
+    for (int a = 0; a < 3; ++a) {
+      t_next_[a][lane] = ray->axes[a].t_next;
+      t_voxel_[a][lane] = ray->axes[a].t_voxel;
+      step_[a][lane] = static_cast<std::int64_t>(ray->axes[a].step);
+    }
+    key_[lane] = static_cast<std::int64_t>(ray->first);
+    last_[lane] = static_cast<std::int64_t>(ray->last);
+    length_[lane] = ray->length;
+    done_[lane] = 0;
+  }
+
+  void mark(int lane) {
+    const auto key = static_cast<VoxelKey>(key_[lane]);
+    Place& place = places_[lane];
+    if (brickOf(key) != place.brick) {
+      if (!place.live) {
+        return;
+      }
+      place.brick = brickOf(key);
+      place.number = voxels_.number(place.brick);
+    }
+    voxels_.setBit(place.number, placeInBrick(key));
+  }
+
+  void advance() {
+    const Words x_before_y = t_next_[0] < t_next_[1];
+    const Words y_before_z = t_next_[1] < t_next_[2];
+    const Words along_x = x_before_y & (t_next_[0] < t_next_[2]);
+    const Words along_y = ~x_before_y & y_before_z;
+    const Words along_z = ~(along_x | along_y);
+    key_ = (key_ + ((step_[0] & along_x) | (step_[1] & along_y) | (step_[2] & along_z))) & static_cast<std::int64_t>(kVoxelKeyMask);
+    t_next_[0] += along_x ? t_voxel_[0] : Doubles{};
+    t_next_[1] += along_y ? t_voxel_[1] : Doubles{};
+    t_next_[2] += along_z ? t_voxel_[2] : Doubles{};
+    const Doubles least_xy = t_next_[0] < t_next_[1] ? t_next_[0] : t_next_[1];
+    const Doubles least = least_xy < t_next_[2] ? least_xy : t_next_[2];
+    done_ = (key_ == last_) | (least > length_);
+  }
+
+  const VoxelLattice& lattice_;
+  std::span<const RaySegment> rays_;
   VoxelSet& voxels_;
-  VoxelKey brick_;
-  VoxelSet::Bits* bits_;
+  std::size_t next_ray_ = 0;
+  int live_ = 0;
+  Place places_[kLanes];
+  Doubles t_next_[3] = {};
+  Doubles t_voxel_[3] = {};
+  Doubles length_ = {};
+  Words step_[3] = {};
+  Words key_ = {};
+  Words last_ = {};
+  Words done_ = {};
 };
 
 }  // namespace
@@ -61,32 +170,8 @@ double rayLength(const RaySegment& ray) {
   return std::sqrt(static_cast<double>(x * x + y * y + z * z));
 }
 
-void markRay(const VoxelLattice& lattice, const RaySegment& ray, VoxelSet& voxels) {
-  const auto first = lattice.findKey(ray.origin);
-  const auto last = lattice.findKey(ray.end);
-  if (!first || !last || *first == *last) {
-    return;
-  }
-  const float length = static_cast<float>(rayLength(ray));
-  const auto numbers = unpackVoxelKey(*first);
-  const auto axis = [&](int a) {
-    return startAxis(lattice, numbers[static_cast<std::size_t>(a)], ray.origin[a], (ray.end[a] - ray.origin[a]) / length,
-                     a * kVoxelKeyShift);
-  };
-  Axis x = axis(0);
-  Axis y = axis(1);
-  Axis z = axis(2);
-  PathMarker marker(voxels, *first);
-  VoxelKey key = *first;
-  while (true) {
-    marker.mark(key);
-    Axis& next = x.t_next < y.t_next ? (x.t_next < z.t_next ? x : z) : (y.t_next < z.t_next ? y : z);
-    key = (key + next.step) & kVoxelKeyMask;
-    next.t_next += next.t_voxel;
-    if (key == *last || std::min(std::min(x.t_next, y.t_next), z.t_next) > static_cast<double>(length)) {
-      return;
-    }
-  }
+void markRays(const VoxelLattice& lattice, std::span<const RaySegment> rays, VoxelSet& voxels) {
+  RayBundle(lattice, rays, voxels).markAll();
 }
 
 }  // namespace oikos::mapping

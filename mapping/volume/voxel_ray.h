@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "mapping/volume/voxel_key.h"
 #include "mapping/volume/voxel_set.h"
@@ -19,7 +20,7 @@ class VoxelLattice {
 
   /// Whether the point's voxel numbers are numbers at all: finite, and small enough for an int.
   [[nodiscard]] bool hasNumber(const Eigen::Vector3f& point) const {
-    constexpr double kLimit = 2147418112.0;  // 2^31 less the lattice's own offset
+    constexpr double kLimit = 2147418112.0;  // 2^31 less twice the lattice's own offset
     return std::abs(voxels_per_m_ * static_cast<double>(point.x())) < kLimit &&
            std::abs(voxels_per_m_ * static_cast<double>(point.y())) < kLimit &&
            std::abs(voxels_per_m_ * static_cast<double>(point.z())) < kLimit;
@@ -50,7 +51,10 @@ class VoxelLattice {
 
  private:
   [[nodiscard]] int number(float coordinate_m) const {
-    return static_cast<int>(std::floor(voxels_per_m_ * static_cast<double>(coordinate_m))) + kVoxelKeyOrigin;
+    // floor(); the library's is a call on machines without SSE4.1
+    const double voxels = voxels_per_m_ * static_cast<double>(coordinate_m);
+    const int truncated = static_cast<int>(voxels);
+    return truncated - (voxels < static_cast<double>(truncated) ? 1 : 0) + kVoxelKeyOrigin;
   }
 
   double resolution_m_;
@@ -65,8 +69,9 @@ struct RaySegment {
 /// Euclidean length as OctoMap's Vector3::norm has it: squares summed in float, the root taken in double.
 [[nodiscard]] double rayLength(const RaySegment& ray);
 
-/// Adds the voxels from the origin's up to, without, the end's. Adds none when both are one voxel, or when either lies beyond
-/// the lattice. (Amanatides & Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987; OctoMap's computeRayKeys.)
-void markRay(const VoxelLattice& lattice, const RaySegment& ray, VoxelSet& voxels);
+/// For each ray, adds the voxels from the origin's up to, without, the end's. A ray adds none when both are one voxel, or when
+/// either lies beyond the lattice. (Amanatides & Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987; OctoMap's
+/// computeRayKeys.)
+void markRays(const VoxelLattice& lattice, std::span<const RaySegment> rays, VoxelSet& voxels);
 
 }  // namespace oikos::mapping

@@ -17,17 +17,24 @@ class VoxelSet {
   using Bits = std::array<std::uint64_t, kBrickVoxels / 64>;
 
   /// The bits of a brick, made empty if it is new; valid until the next call.
-  Bits& bits(VoxelKey brick) {
+  Bits& bits(VoxelKey brick) { return bits_[number(brick)]; }
+
+  /// The brick's number, which stays its own; made empty if it is new.
+  std::uint32_t number(VoxelKey brick) {
     const std::uint32_t number = index_.findOrInsert(brick);
     if (number == bits_.size()) {
       bits_.emplace_back();
     }
-    return bits_[number];
+    return number;
   }
+  void setBit(std::uint32_t number, unsigned place) { bits_[number][place / 64] |= std::uint64_t{1} << (place % 64); }
 
   void insert(VoxelKey key) {
-    const unsigned place = placeInBrick(key);
-    bits(brickOf(key))[place / 64] |= std::uint64_t{1} << (place % 64);
+    if (brickOf(key) != latest_brick_) {
+      latest_brick_ = brickOf(key);
+      latest_number_ = number(latest_brick_);
+    }
+    setBit(latest_number_, placeInBrick(key));
   }
 
   [[nodiscard]] const Bits* find(VoxelKey brick) const {
@@ -62,11 +69,14 @@ class VoxelSet {
   void clear() {
     index_.clear();
     bits_.clear();
+    latest_brick_ = ~VoxelKey{0};
   }
 
  private:
   BrickIndex index_;
   std::vector<Bits> bits_;
+  VoxelKey latest_brick_ = ~VoxelKey{0};  ///< of `insert`: neighbouring points mostly share a brick
+  std::uint32_t latest_number_ = 0;
 };
 
 }  // namespace oikos::mapping
