@@ -56,11 +56,46 @@ std::optional<Traversal> startTraversal(const VoxelLattice& lattice, const RaySe
   return traversal;
 }
 
-/// Rays are traversed four at a time in vector registers: which axis is next is a coin toss that a branch would lose.
-constexpr int kLanes = 4;
-using Doubles = double __attribute__((vector_size(kLanes * sizeof(double))));
-using Words = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
+/// Rays are traversed in vector registers, two to a register: which axis is next is a coin toss that a branch would lose.
+constexpr int kPairLanes = 2;
+using Doubles = double __attribute__((vector_size(kPairLanes * sizeof(double))));
+using Words = std::int64_t __attribute__((vector_size(kPairLanes * sizeof(std::int64_t))));
 
+struct RayPair {
+  Doubles t_next[3] = {};
+  Doubles t_voxel[3] = {};
+  Doubles length = {};
+  Words step[3] = {};
+  Words key = {};
+  Words last = {};
+
+  void set(int lane, const Traversal& ray) {
+    for (int a = 0; a < 3; ++a) {
+      t_next[a][lane] = ray.axes[a].t_next;
+      t_voxel[a][lane] = ray.axes[a].t_voxel;
+      step[a][lane] = static_cast<std::int64_t>(ray.axes[a].step);
+    }
+    key[lane] = static_cast<std::int64_t>(ray.first);
+    last[lane] = static_cast<std::int64_t>(ray.last);
+    length[lane] = ray.length;
+  }
+
+  /// To the next voxel; the lanes that are at their end then are not zero in the result.
+  Words advance() {
+    const Words x_before_y = t_next[0] < t_next[1];
+    const Words along_x = x_before_y & (t_next[0] < t_next[2]);
+    const Words along_y = ~x_before_y & (t_next[1] < t_next[2]);
+    const Words along_z = ~(along_x | along_y);
+    key = (key + ((step[0] & along_x) | (step[1] & along_y) | (step[2] & along_z))) & static_cast<std::int64_t>(kVoxelKeyMask);
+    t_next[0] += along_x ? t_voxel[0] : Doubles{};
+    t_next[1] += along_y ? t_voxel[1] : Doubles{};
+    t_next[2] += along_z ? t_voxel[2] : Doubles{};
+    const Words beyond = (t_next[0] > length) & (t_next[1] > length) & (t_next[2] > length);
+    return (key == last) | beyond;
+  }
+};
+
+/// Four rays under way at a time, each lane with its own share of the rays: neighbouring rays would wait for one another's bits.
 class RayBundle {
  public:
   RayBundle(const VoxelLattice& lattice, std::span<const RaySegment> rays, VoxelSet& voxels)
@@ -68,16 +103,20 @@ class RayBundle {
 
   void markAll() {
     for (int lane = 0; lane < kLanes; ++lane) {
+      lanes_[lane].next_ray = rays_.size() * static_cast<std::size_t>(lane) / kLanes;
+      lanes_[lane].end_ray = rays_.size() * static_cast<std::size_t>(lane + 1) / kLanes;
       refill(lane);
     }
     while (live_ > 0) {
       for (int lane = 0; lane < kLanes; ++lane) {
         mark(lane);
       }
-      advance();
-      if ((done_[0] | done_[1] | done_[2] | done_[3]) != 0) {
+      const Words done_low = pairs_[0].advance();
+      const Words done_high = pairs_[1].advance();
+      const Words any = done_low | done_high;
+      if ((any[0] | any[1]) != 0) {
         for (int lane = 0; lane < kLanes; ++lane) {
-          if (done_[lane] != 0) {
+          if ((lane < kPairLanes ? done_low : done_high)[lane % kPairLanes] != 0) {
             refill(lane);
           }
         }
@@ -86,79 +125,51 @@ class RayBundle {
   }
 
  private:
-  struct Place {
+  static constexpr int kLanes = 2 * kPairLanes;
+
+  struct Lane {
+    std::size_t next_ray = 0;
+    std::size_t end_ray = 0;
     VoxelKey brick = ~VoxelKey{0};
     std::uint32_t number = 0;
     bool live = false;
   };
 
   /// The lane's ray is over: puts the next one in. Without one the lane rests: it never moves, marks nothing, is never done.
-  void refill(int lane) {
-    Place& place = places_[lane];
-    live_ -= place.live ? 1 : 0;
-    place.live = false;
+  void refill(int lane_number) {
+    Lane& lane = lanes_[lane_number];
+    live_ -= lane.live ? 1 : 0;
     std::optional<Traversal> ray;
-    while (!ray && next_ray_ < rays_.size()) {
-      ray = startTraversal(lattice_, rays_[next_ray_++]);
+    while (!ray && lane.next_ray < lane.end_ray) {
+      ray = startTraversal(lattice_, rays_[lane.next_ray++]);
     }
-    if (ray) {
-      place.live = true;
-      ++live_;
-    } else {
-      ray = Traversal{{}, 0, ~VoxelKey{0}, std::numeric_limits<double>::infinity()};
-    }
-    for (int a = 0; a < 3; ++a) {
-      t_next_[a][lane] = ray->axes[a].t_next;
-      t_voxel_[a][lane] = ray->axes[a].t_voxel;
-      step_[a][lane] = static_cast<std::int64_t>(ray->axes[a].step);
-    }
-    key_[lane] = static_cast<std::int64_t>(ray->first);
-    last_[lane] = static_cast<std::int64_t>(ray->last);
-    length_[lane] = ray->length;
-    done_[lane] = 0;
+    lane.live = ray.has_value();
+    live_ += lane.live ? 1 : 0;
+    const Traversal rest{{}, 0, ~VoxelKey{0}, std::numeric_limits<double>::infinity()};
+    pairs_[lane_number / kPairLanes].set(lane_number % kPairLanes, ray.value_or(rest));
   }
 
-  void mark(int lane) {
-    const auto key = static_cast<VoxelKey>(key_[lane]);
-    Place& place = places_[lane];
-    if (brickOf(key) != place.brick) {
-      if (!place.live) {
+  void mark(int lane_number) {
+    const auto key = static_cast<VoxelKey>(pairs_[lane_number / kPairLanes].key[lane_number % kPairLanes]);
+    Lane& lane = lanes_[lane_number];
+    if (brickOf(key) != lane.brick) {
+      if (!lane.live) {
         return;
       }
-      place.brick = brickOf(key);
-      place.number = voxels_.number(place.brick);
+      lane.brick = brickOf(key);
+      lane.number = voxels_.number(lane.brick);
     }
-    voxels_.setBit(place.number, placeInBrick(key));
-  }
-
-  void advance() {
-    const Words x_before_y = t_next_[0] < t_next_[1];
-    const Words y_before_z = t_next_[1] < t_next_[2];
-    const Words along_x = x_before_y & (t_next_[0] < t_next_[2]);
-    const Words along_y = ~x_before_y & y_before_z;
-    const Words along_z = ~(along_x | along_y);
-    key_ = (key_ + ((step_[0] & along_x) | (step_[1] & along_y) | (step_[2] & along_z))) & static_cast<std::int64_t>(kVoxelKeyMask);
-    t_next_[0] += along_x ? t_voxel_[0] : Doubles{};
-    t_next_[1] += along_y ? t_voxel_[1] : Doubles{};
-    t_next_[2] += along_z ? t_voxel_[2] : Doubles{};
-    const Doubles least_xy = t_next_[0] < t_next_[1] ? t_next_[0] : t_next_[1];
-    const Doubles least = least_xy < t_next_[2] ? least_xy : t_next_[2];
-    done_ = (key_ == last_) | (least > length_);
+    if (lane.live) {
+      voxels_.setBit(lane.number, placeInBrick(key));
+    }
   }
 
   const VoxelLattice& lattice_;
   std::span<const RaySegment> rays_;
   VoxelSet& voxels_;
-  std::size_t next_ray_ = 0;
   int live_ = 0;
-  Place places_[kLanes];
-  Doubles t_next_[3] = {};
-  Doubles t_voxel_[3] = {};
-  Doubles length_ = {};
-  Words step_[3] = {};
-  Words key_ = {};
-  Words last_ = {};
-  Words done_ = {};
+  Lane lanes_[kLanes];
+  RayPair pairs_[2];
 };
 
 }  // namespace
