@@ -53,6 +53,6 @@ CLI::App& addCommand(CLI::App& parent, const CommandText& text);
 void setAction(CLI::App& command, Action action);
 
 // One file each: tools/NAME.cpp.
-void addEvaluate(CLI::App& root);
+void addEvaluateCommand(CLI::App& program);
 
 }  // namespace oikos::tools
