@@ -155,7 +155,7 @@ ExitCode evaluateTrajectoryFiles(TrajectoryOptions options, const Session& sessi
   return answered ? ExitCode::kDone : ExitCode::kNoAnswer;
 }
 
-void addTrajectory(CLI::App& evaluate) {
+void addTrajectoryEvaluation(CLI::App& evaluate) {
   CLI::App& command = addCommand(evaluate, {"trajectory", "Measures the absolute and relative errors of a trajectory.",
                                             "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
                                             "  oikos evaluate trajectory estimate.txt truth.txt --json\n"
@@ -225,7 +225,7 @@ ExitCode evaluateMapFiles(MapOptions options, const Session& session) {
   return answered ? ExitCode::kDone : ExitCode::kNoAnswer;
 }
 
-void addMap(CLI::App& evaluate) {
+void addMapEvaluation(CLI::App& evaluate) {
   CLI::App& command = addCommand(evaluate, {"map", "Measures accuracy and completeness of a cloud against a reference in the same frame.",
                                             "  oikos evaluate map home/map/cloud.ply scan.ply\n"
                                             "  oikos evaluate map home/map/mesh.ply scan.ply --fine 0.01 --coarse 0.03 --json"});
@@ -239,12 +239,12 @@ void addMap(CLI::App& evaluate) {
 
 }  // namespace
 
-void addEvaluateCommand(CLI::App& program) {
-  CLI::App& evaluate = addCommand(program, {"evaluate", "Measures results against truth with the field's metrics.",
-                                            "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
-                                            "  oikos evaluate map home/map/cloud.ply scan.ply"});
-  addTrajectory(evaluate);
-  addMap(evaluate);
+void addEvaluate(CLI::App& root) {
+  CLI::App& evaluate = addCommand(root, {"evaluate", "Measures results against truth with the field's metrics.",
+                                         "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
+                                         "  oikos evaluate map home/map/cloud.ply scan.ply"});
+  addTrajectoryEvaluation(evaluate);
+  addMapEvaluation(evaluate);
 }
 
 }  // namespace oikos::tools

@@ -118,6 +118,11 @@ void publishFolder(const std::filesystem::path& staged, const std::filesystem::p
   syncBothFolders(staged, target);
 }
 
+void publishNewFolder(const std::filesystem::path& staged, const std::filesystem::path& target) {
+  renameWithFlags(staged, target, RENAME_NOREPLACE);
+  syncBothFolders(staged, target);
+}
+
 void publishFile(const std::filesystem::path& staged, const std::filesystem::path& target) {
   renameWithFlags(staged, target, 0);
   syncBothFolders(staged, target);

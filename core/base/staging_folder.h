@@ -35,6 +35,9 @@ class StagingFolder {
 /// then the old one. The content must be on the disk already (`syncTree`). Throws Error{kIo}; `target` is then as it was.
 void publishFolder(const std::filesystem::path& staged, const std::filesystem::path& target);
 
+/// As publishFolder for a place where nothing is: something that another process has put there is an error and stays.
+void publishNewFolder(const std::filesystem::path& staged, const std::filesystem::path& target);
+
 /// As publishFolder for a file; an existing `target` is replaced.
 void publishFile(const std::filesystem::path& staged, const std::filesystem::path& target);
 

@@ -110,9 +110,18 @@ TEST(PublishFolder, StagingFolderItselfMayBecomeTheTarget) {
   {
     const StagingFolder staging(parent.path() / ".home.staging");
     parent.write(".home.staging/home.xml", "<apartment/>");
-    publishFolder(staging.path(), parent.path() / "home");
+    publishNewFolder(staging.path(), parent.path() / "home");
   }
   EXPECT_EQ(readFile(parent.path() / "home/home.xml"), "<apartment/>");
+}
+
+TEST(PublishNewFolder, DoesNotReplace) {
+  const test::TemporaryFolder home;
+  home.write("map/grid.pgm", "old");
+  const StagingFolder staging(home.path() / ".staging");
+  home.write(".staging/map/grid.pgm", "new");
+  EXPECT_THROW(publishNewFolder(staging.path() / "map", home.path() / "map"), Error);
+  EXPECT_EQ(readFile(home.path() / "map/grid.pgm"), "old");
 }
 
 TEST(PublishFolder, MissingParentOfTheTargetIsAnErrorAndKeepsTheStaged) {
