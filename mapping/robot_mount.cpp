@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/nearest_name.h"
-#include "core/base/text_file.h"
+#include "core/base/read_file.h"
 
 namespace oikos::mapping {
 
@@ -37,7 +37,7 @@ class CapturedMessages : public console_bridge::OutputHandler {
 
 urdf::ModelInterfaceSharedPtr parseModel(const std::filesystem::path& file) {
   static std::mutex logger_mutex;
-  const std::string text = base::readTextFile(file);
+  const std::string text = base::readFile(file);
   const std::lock_guard lock(logger_mutex);
   const CapturedMessages messages;
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);

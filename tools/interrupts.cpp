@@ -52,7 +52,6 @@ void Interrupts::runUninterrupted(const std::function<void()>& step, std::string
   const std::lock_guard lock(mutex_);
   step();
   message_ = std::move(message_afterwards);
-  tidy_up_ = nullptr;
 }
 
 void Interrupts::stop() {

@@ -25,7 +25,7 @@ class Interrupts {
   void onInterrupt(std::string message, std::function<void()> tidy_up);
 
   /// Runs `step` so that an interrupt comes either before it (and `step` never starts) or after it, when it meets
-  /// `message_afterwards` and has nothing left to tidy up. Thread-safe.
+  /// `message_afterwards`. Thread-safe.
   void runUninterrupted(const std::function<void()>& step, std::string message_afterwards);
 
   /// Ends the waiting; if an interrupt is being handled, never returns. Call it before reporting a failure, so that what an

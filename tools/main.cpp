@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tools/command.h"
 #include "tools/program.h"
 
 int main(int argc, char** argv) {
   oikos::tools::Program program;
+  oikos::tools::addEvaluate(program.root());
   return static_cast<int>(program.run(argc, argv));
 }

@@ -51,17 +51,17 @@ std::vector<std::string> commandNames(const CLI::App& app) {
   return names;
 }
 
-/// The first word that is no command where one has to stand; empty if that is not what is wrong.
-std::string misspeltCommand(const CLI::App& app) {
-  const auto unread = app.remaining();
-  return commandNames(app).empty() || unread.empty() || unread.front().starts_with('-') ? "" : unread.front();
+/// The first word that was not understood, if it stands where a command has to stand; else empty.
+std::string misspeltCommand(const CLI::App& root, const CLI::App& chosen) {
+  const auto unread = root.remaining(true);
+  return commandNames(chosen).empty() || unread.empty() || unread.front().starts_with('-') ? "" : unread.front();
 }
 
 ExitCode reportUsage(const CLI::App& root, const CLI::ParseError& error) {
   const CLI::App& command = chosenCommand(root);
   const std::string line = commandLineOf(command);
   std::string what = error.what();
-  if (const std::string word = misspeltCommand(command); !word.empty()) {
+  if (const std::string word = misspeltCommand(root, command); !word.empty()) {
     what = "no command '" + word + "'" + base::didYouMean(word, commandNames(command));
   }
   return report(ExitCode::kUsage, what + " (see " + line + " --help)");
@@ -93,7 +93,7 @@ CLI::App& addCommand(CLI::App& parent, const CommandText& text) {
   parent.add_subcommand(command);
   parent.require_subcommand(0, 1);
   command->fallthrough();
-  command->footer("Examples:\n" + text.examples);
+  command->footer("Examples:\n" + text.examples + "\nOptions of every command: oikos --help");
   return *command;
 }
 
@@ -150,6 +150,9 @@ ExitCode Program::runCommand(Interrupts& interrupts) const {
   } catch (const std::exception& error) {
     interrupts.stop();
     return report(ExitCode::kInternal, std::string("internal error, please report it: ") + error.what());
+  } catch (...) {
+    interrupts.stop();
+    return report(ExitCode::kInternal, "internal error, please report it");
   }
 }
 

@@ -1,49 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/atomic_file.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/posix_file.h"
 
 namespace oikos::base {
 
 namespace {
 
-[[noreturn]] void throwIo(const std::string& what, const std::filesystem::path& path) {
-  const int reason = errno;
-  throw Error(ErrorCode::kIo, reason != 0 ? what + " (" + std::strerror(reason) + ")" : what, path.string());
-}
-
-/// std::ofstream has no fsync: the data is synced through a descriptor of its own.
-void syncToDisk(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) {
-    throwIo("cannot be opened for syncing", path);
-  }
-  const int failed = ::fsync(descriptor);
-  const int reason = errno;
-  ::close(descriptor);
-  if (failed != 0) {
-    errno = reason;
-    throwIo("cannot be written to the disk", path);
-  }
+/// The process number keeps two programs that write the same file apart.
+std::filesystem::path temporaryName(const std::filesystem::path& path) {
+  return folderOf(path) / ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
-  temporary_ += ".part";
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), temporary_(temporaryName(path_)) {
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_) {
-    throwIo("cannot be created", path_);
+    throwErrno("cannot be created", path_);
   }
 }
 
@@ -57,19 +41,25 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::commit() {
   OIKOS_CHECK(!temporary_.empty());
-  errno = 0;
   stream_.flush();
   const bool written = stream_.good();
   stream_.close();
   if (!written || stream_.fail()) {
-    throwIo("cannot be written", path_);
+    // A stream forgets errno, and something else may have set it since: no reason is better than a wrong one.
+    throw Error(ErrorCode::kIo, "cannot be written: the disk is full or failed", path_.string());
   }
-  syncToDisk(temporary_);
-  errno = 0;
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
-    throwIo("cannot be renamed into place", path_);
+  sync(temporary_);
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) {
+    throwErrno("cannot be replaced", path_);
   }
   temporary_.clear();
+  sync(folderOf(path_));
+}
+
+void writeFileAtomically(const std::filesystem::path& path, std::string_view content) {
+  AtomicFile file(path);
+  file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.commit();
 }
 
 }  // namespace oikos::base

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 namespace oikos::base {
 
-/// A file that appears under its name complete or not at all: it is written beside its name, checked after the flush, synced to
-/// the disk and renamed by `commit()`. Destroyed without a commit, it leaves no trace. Not thread-safe.
+/// A file that appears under its name complete or not at all: it is written under a hidden name beside it, checked after the
+/// flush, synced to the disk and renamed by `commit()`. Whoever opens it, and whatever crashes, finds the old content or the
+/// new one. Destroyed without a commit, it leaves no trace. Not thread-safe.
 class AtomicFile {
  public:
   /// Opens for binary writing. Throws Error{kIo} with the path and the system's reason.
@@ -18,7 +20,8 @@ class AtomicFile {
 
   [[nodiscard]] std::ostream& stream() { return stream_; }
 
-  /// Throws Error{kIo} if anything written so far did not reach the disk (no space, quota, I/O error).
+  /// Throws Error{kIo} if anything written so far did not reach the disk (no space, quota, I/O error); the file is then as
+  /// it was before.
   void commit();
 
  private:
@@ -26,5 +29,8 @@ class AtomicFile {
   std::filesystem::path temporary_;
   std::ofstream stream_;
 };
+
+/// The same for content that is at hand as a whole.
+void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace oikos::base

@@ -12,7 +12,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
-#include "core/base/text_file.h"
+#include "core/base/read_file.h"
 
 namespace oikos::base {
 
@@ -169,7 +169,7 @@ bool isEmptyKnownTable(const std::vector<ConfigField>& fields, const Leaf& leaf)
 }
 
 void assignFile(const std::vector<ConfigField>& fields, const std::filesystem::path& file, ConfigOrigins& origins) {
-  const toml::table table = parseToml(readTextFile(file), file.string());
+  const toml::table table = parseToml(readFile(file), file.string());
   for (const Leaf& leaf : leavesInOrder(table)) {
     if (isEmptyKnownTable(fields, leaf)) {
       continue;

@@ -5,64 +5,45 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <system_error>
 
-#include "core/base/error.h"
+#include "core/base/posix_file.h"
 
 namespace oikos::base {
 
 namespace {
 
-std::string systemReason() {
-  return std::generic_category().message(errno);
+constexpr std::size_t kMinChunk = 4096;
+
+/// How much to ask for: the file's size and one byte more, to meet its end; a pipe has no size.
+std::size_t firstChunk(const FileDescriptor& descriptor) {
+  struct stat status {};
+  const bool known = ::fstat(descriptor.number(), &status) == 0 && status.st_size > 0;
+  return std::max(known ? static_cast<std::size_t>(status.st_size) + 1 : 0, kMinChunk);
 }
-
-/// An open file, closed on the way out.
-class Descriptor {
- public:
-  explicit Descriptor(const std::filesystem::path& file) : fd_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) {
-      ::close(fd_);
-    }
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  [[nodiscard]] int get() const { return fd_; }
-  [[nodiscard]] bool isOpen() const { return fd_ >= 0; }
-
- private:
-  int fd_;
-};
 
 }  // namespace
 
 std::string readFile(const std::filesystem::path& file) {
-  const Descriptor descriptor(file);
-  struct stat status {};
-  if (!descriptor.isOpen() || ::fstat(descriptor.get(), &status) != 0) {
-    throw Error(ErrorCode::kIo, "cannot open: " + systemReason(), file.string());
-  }
-  std::string content(static_cast<std::size_t>(status.st_size), '\0');
+  const FileDescriptor descriptor = openFile(file, O_RDONLY);
+  std::string content(firstChunk(descriptor), '\0');
   std::size_t filled = 0;
-  while (filled < content.size()) {
-    const ssize_t count = ::read(descriptor.get(), content.data() + filled, content.size() - filled);
-    if (count < 0 && errno == EINTR) {
-      continue;
-    }
-    if (count < 0) {
-      throw Error(ErrorCode::kIo, "cannot read: " + systemReason(), file.string());
-    }
+  while (true) {
+    const ssize_t count = ::read(descriptor.number(), content.data() + filled, content.size() - filled);
     if (count == 0) {
-      break;
+      content.resize(filled);
+      return content;
     }
-    filled += static_cast<std::size_t>(count);
+    if (count < 0 && errno != EINTR) {
+      throwErrno("cannot be read", file);
+    }
+    filled += count > 0 ? static_cast<std::size_t>(count) : 0;
+    if (filled == content.size()) {
+      content.resize(2 * content.size());
+    }
   }
-  content.resize(filled);
-  return content;
 }
 
 }  // namespace oikos::base

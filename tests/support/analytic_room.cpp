@@ -7,7 +7,7 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-namespace oikos::tests {
+namespace oikos::test {
 
 namespace {
 
@@ -109,4 +109,4 @@ std::vector<Eigen::Isometry3d> lookAround(int count, double radius_m, double hei
   return poses;
 }
 
-}  // namespace oikos::tests
+}  // namespace oikos::test

@@ -8,7 +8,7 @@
 #include "core/camera/pinhole_camera.h"
 #include "core/camera/rgbd_frame.h"
 
-namespace oikos::tests {
+namespace oikos::test {
 
 /// An axis-aligned box in the map frame, each face of one colour.
 struct AnalyticBox {
@@ -53,4 +53,4 @@ Eigen::Isometry3d lookAt(const Eigen::Vector3d& position_map, const Eigen::Vecto
 /// `count` poses on a circle of `radius_m` around the room's middle at `height_m`, each looking outwards and down by `tilt_rad`.
 std::vector<Eigen::Isometry3d> lookAround(int count, double radius_m, double height_m, double tilt_rad);
 
-}  // namespace oikos::tests
+}  // namespace oikos::test

@@ -8,7 +8,7 @@
 
 #include "core/base/enum_table.h"
 
-namespace oikos::tests {
+namespace oikos::test {
 
 /// Every row reads back as itself, no name or value appears twice, and the values run 0, 1, 2, … to `last`: a value that the
 /// enum has and the table lacks is found.
@@ -27,4 +27,4 @@ void checkEnumTable(Enum last) {
   EXPECT_FALSE(base::findEnum<Enum>("no such name"));
 }
 
-}  // namespace oikos::tests
+}  // namespace oikos::test

@@ -82,7 +82,7 @@ class ConfigFile : public ::testing::Test {
   }
   TestConfig load(const std::string& text) { return loadConfig<TestConfig>({folder_.write("map.toml", text), {}}); }
 
-  tests::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(ConfigFile, FillsEveryTypeOfField) {
@@ -222,7 +222,7 @@ TEST(ConfigRules, NanBreaksEveryRule) {
 }
 
 TEST(EnumTable, RoundTrips) {
-  tests::checkEnumTable(Feature::kOrb);
+  test::checkEnumTable(Feature::kOrb);
 }
 
 }  // namespace

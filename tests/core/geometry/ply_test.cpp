@@ -13,7 +13,7 @@
 namespace oikos::geometry {
 namespace {
 
-std::filesystem::path writeText(const tests::TemporaryFolder& folder, const std::string& text) {
+std::filesystem::path writeText(const test::TemporaryFolder& folder, const std::string& text) {
   const std::filesystem::path file = folder.path() / "cloud.ply";
   std::ofstream(file, std::ios::binary) << text;
   return file;
@@ -21,7 +21,7 @@ std::filesystem::path writeText(const tests::TemporaryFolder& folder, const std:
 
 /// The message of the Error{kInput} that reading this text ends in, without the folder.
 std::string failure(const std::string& text) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path file = writeText(folder, text);
   try {
     (void)readPlyMesh(file);
@@ -36,7 +36,7 @@ std::string failure(const std::string& text) {
 constexpr const char* kHeader = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
 
 TEST(Ply, CloudComesBackBitByBit) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ColoredCloud cloud;
   cloud.points = {{1.5F, -2.25F, 1e-7F}, {0.1F, 0.2F, 0.3F}};
   cloud.colors = {{255, 0, 1}, {7, 8, 9}};
@@ -47,7 +47,7 @@ TEST(Ply, CloudComesBackBitByBit) {
 }
 
 TEST(Ply, CloudWithoutColoursComesBackWithout) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   writePly(ColoredCloud{{{1.0F, 2.0F, 3.0F}}, {}}, folder.path() / "cloud.ply");
   const ColoredCloud read = readPly(folder.path() / "cloud.ply");
   EXPECT_EQ(read.points.size(), 1U);
@@ -55,13 +55,13 @@ TEST(Ply, CloudWithoutColoursComesBackWithout) {
 }
 
 TEST(Ply, EmptyCloudComesBackEmpty) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   writePly(ColoredCloud{}, folder.path() / "cloud.ply");
   EXPECT_TRUE(readPly(folder.path() / "cloud.ply").points.empty());
 }
 
 TEST(Ply, MeshComesBack) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ColoredMesh mesh;
   mesh.vertices.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.vertices.colors = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}};
@@ -75,7 +75,7 @@ TEST(Ply, MeshComesBack) {
 }
 
 TEST(Ply, ReadsAsciiWithOtherElementsAndProperties) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path file = writeText(folder,
                                                "ply\r\nformat ascii 1.0\r\ncomment by hand\r\nelement camera 1\r\nproperty list uchar int "
                                                "tags\r\nelement vertex 2\r\nproperty double z\r\nproperty float confidence\r\nproperty "
@@ -89,7 +89,7 @@ TEST(Ply, ReadsAsciiWithOtherElementsAndProperties) {
 }
 
 TEST(Ply, ReadsBinaryDoubles) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::string text =
       "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty double x\nproperty double y\nproperty double z\nproperty short "
       "quality\nend_header\n";
@@ -144,7 +144,7 @@ TEST(Ply, FullDiskIsAnErrorAndLeavesNothing) {
   ColoredCloud cloud;
   cloud.points.assign(100000, Eigen::Vector3f::Zero());
   EXPECT_THROW(writePly(cloud, "/nowhere/cloud.ply"), base::Error);
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_symlink("/dev/full", folder.path() / "cloud.ply.part");
   EXPECT_THROW(writePly(cloud, folder.path() / "cloud.ply"), base::Error);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "cloud.ply"));

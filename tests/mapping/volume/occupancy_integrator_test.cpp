@@ -78,10 +78,10 @@ void expectEqual(const std::vector<OccupancyScan>& scans, const OccupancyConfig&
 }
 
 std::vector<OccupancyScan> roomScans(const OccupancyConfig& config, int count) {
-  const tests::AnalyticRoom room = tests::AnalyticRoom::furnished();
-  const camera::PinholeCamera camera = tests::smallCamera();
+  const test::AnalyticRoom room = test::AnalyticRoom::furnished();
+  const camera::PinholeCamera camera = test::smallCamera();
   std::vector<OccupancyScan> scans;
-  for (const Eigen::Isometry3d& T_map_camera : tests::lookAround(count, 0.3, 1.3, 0.4)) {
+  for (const Eigen::Isometry3d& T_map_camera : test::lookAround(count, 0.3, 1.3, 0.4)) {
     const camera::RgbdFrame frame = room.render(camera, T_map_camera);
     scans.push_back(makeScan({frame, camera, T_map_camera}, config));
   }
@@ -218,7 +218,7 @@ TEST(OctomapFiles, OctomapReadsThemBack) {
   for (const OccupancyScan& scan : roomScans(config, 6)) {
     occupancy.insert(scan);
   }
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   writeOctomap(occupancy, folder.path());
   const std::unique_ptr<octomap::AbstractOcTree> read(octomap::AbstractOcTree::read((folder.path() / "octomap.ot").string()));
   auto* full = dynamic_cast<octomap::OcTree*>(read.get());
@@ -241,7 +241,7 @@ TEST(OctomapFiles, FullDiskIsAnErrorThatNamesTheFile) {
     occupancy.insert(scan);
   }
   for (const char* name : {"octomap.bt", "octomap.ot"}) {
-    const tests::TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     std::filesystem::create_symlink("/dev/full", folder.path() / (std::string(name) + ".part"));
     try {
       writeOctomap(occupancy, folder.path());

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/graph/front_end.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/base/error.h"
+#include "mapping/odometry/rotation_alignment.h"
+
+namespace oikos::mapping {
+
+struct FrontEnd::Current {
+  const camera::RgbdFrame& frame;
+  std::shared_ptr<const ImagePyramid> pyramid;
+  std::optional<Features> features;
+
+  const Features& getFeatures(const camera::PinholeCamera& camera, const FeatureConfig& config) {
+    if (!features) {
+      features = extractFeatures(frame, camera, config);
+    }
+    return *features;
+  }
+};
+
+struct FrontEnd::Revisit {
+  int node = -1;
+  FollowResult seen;     ///< in the old node's world
+  double overlap = 0.0;  ///< share of the old node's landmarks that are seen again
+};
+
+FrontEnd::FrontEnd(const camera::PinholeCamera& camera, const FrontEndConfig& config, KeyframeImages& images, std::uint64_t seed)
+    : camera_(camera), config_(config), images_(images), seed_(seed) {}
+
+void FrontEnd::add(const camera::RgbdFrame& frame) {
+  Current current{frame, std::make_shared<const ImagePyramid>(frame.gray, config_.pyramid_levels), {}};
+  if (reference_ < 0) {
+    startSubmap(current);
+    return;
+  }
+  FollowResult seen = follow(current, predict(current), active_);
+  TrackingStatus status = TrackingStatus::kTracked;
+  if (!seen.tracked) {
+    status = TrackingStatus::kLost;
+    if (auto recovered = recover(current)) {
+      seen = std::move(*recovered);
+      status = TrackingStatus::kRelocalised;
+    }
+  }
+  if (status == TrackingStatus::kLost && ++lost_in_a_row_ > config_.max_lost_frames) {
+    startSubmap(current);
+    return;
+  }
+  if (status != TrackingStatus::kLost) {
+    lost_in_a_row_ = 0;
+    T_previous_current_ = T_world_camera_.inverse() * seen.pose.T_world_camera;
+    if (status == TrackingStatus::kRelocalised) {
+      T_previous_current_.setIdentity();
+    }
+    T_world_camera_ = seen.pose.T_world_camera;
+    reference_ = mainHost(seen.observations);
+    if (keyframeDue(seen) && !borrowFromNeighbours(current, seen)) {
+      addKeyframe(current, seen);
+    }
+  } else {
+    T_previous_current_.setIdentity();
+  }
+  record(current, seen, status);
+  previous_ = current.pyramid;
+}
+
+void FrontEnd::startSubmap(const Current& current) {
+  lost_in_a_row_ = 0;
+  active_.clear();
+  Current first = current;
+  const int node = addNode(first, T_world_camera_, true);
+  ++result_.submaps;
+  result_.graph.nodes.back().submap = result_.submaps - 1;
+  host(current, node, {});
+  reference_ = node;
+  seen_at_keyframe_ = static_cast<int>(active_.size());
+  T_previous_current_.setIdentity();
+  features_.back() = first.getFeatures(camera_, config_.features);
+  places_.add(node, features_.back());
+  FollowResult seen;
+  seen.pose.T_world_camera = T_world_camera_;
+  record(current, seen, TrackingStatus::kStart);
+  previous_ = current.pyramid;
+}
+
+Eigen::Isometry3d FrontEnd::predict(const Current& current) const {
+  const RotationAlignment turn = alignRotation(*previous_, *current.pyramid, camera_, T_previous_current_.linear());
+  Eigen::Isometry3d T_previous_current = T_previous_current_;
+  if (turn.converged) {
+    T_previous_current.linear() = turn.R_previous_current;
+  }
+  return T_world_camera_ * T_previous_current;
+}
+
+FollowResult FrontEnd::follow(const Current& current, const Eigen::Isometry3d& T_world_camera, const std::vector<int>& landmarks) const {
+  std::map<int, std::shared_ptr<const ImagePyramid>> hosts;
+  std::vector<Candidate> candidates;
+  candidates.reserve(landmarks.size());
+  for (const int id : landmarks) {
+    const Landmark& landmark = result_.graph.landmarks[static_cast<std::size_t>(id)];
+    auto& pyramid = hosts[landmark.host];
+    if (!pyramid) {
+      pyramid = images_.get(landmark.host);
+    }
+    candidates.push_back({id, &landmark, result_.graph.nodes[static_cast<std::size_t>(landmark.host)].T_world_camera, pyramid.get()});
+  }
+  return followLandmarks({&camera_, current.pyramid.get(), &current.frame.depth_m}, candidates, T_world_camera, config_.follower);
+}
+
+/// By features: against the nodes about the last reference, then against all places.
+std::optional<FollowResult> FrontEnd::recover(Current& current) {
+  const Features& features = current.getFeatures(camera_, config_.features);
+  std::vector<int> nodes = neighbourhood(reference_, 2);
+  for (const PlaceIndex::Candidate& c : places_.query(features, config_.loop_candidates)) {
+    if (std::find(nodes.begin(), nodes.end(), c.place) == nodes.end()) {
+      nodes.push_back(c.place);
+    }
+  }
+  for (const int node : nodes) {
+    if (auto revisit = verify(current, {node, 0})) {
+      ++result_.relocalisations;
+      adopt(revisit->seen);
+      active_ = landmarksOf(neighbourhood(node, config_.neighbourhood));
+      return std::move(revisit->seen);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const PlaceIndex::Candidate& candidate) {
+  const auto old = static_cast<std::size_t>(candidate.place);
+  const std::vector<FeatureMatch> matches = matchFeatures(features_[old], *current.features);
+  const std::uint64_t seed = seed_ ^ (static_cast<std::uint64_t>(current.frame.index) << 32U) ^ static_cast<std::uint64_t>(candidate.place);
+  const RelativeMotion motion = estimateMotion(features_[old], *current.features, matches, camera_, config_.motion, seed);
+  LoopAttempt attempt{candidate.place, current.frame.index, candidate.votes, static_cast<int>(motion.inlier.size()), motion.rms_px, LoopCheck::kTooFewMatches};
+  std::optional<Revisit> revisit;
+  if (motion.status == MotionStatus::kConverged) {
+    const std::vector<int> landmarks = landmarksOf(neighbourhood(candidate.place, 1));
+    FollowResult seen = follow(current, result_.graph.nodes[old].T_world_camera * motion.T_a_b, landmarks);
+    attempt.verdict = LoopCheck::kGeometryDisagrees;
+    if (seen.tracked) {
+      attempt.verdict = LoopCheck::kAccepted;
+      attempt.inliers = seen.pose.inliers;
+      attempt.rms_px = seen.pose.rms_px;
+      const std::vector<int> own = landmarksOf({candidate.place});
+      const auto again = std::count_if(seen.observations.begin(), seen.observations.end(), [&](const Observation& o) {
+        return std::binary_search(own.begin(), own.end(), o.landmark);
+      });
+      revisit = Revisit{candidate.place, std::move(seen), static_cast<double>(again) / std::max<double>(1.0, static_cast<double>(own.size()))};
+    }
+  } else if (motion.status != MotionStatus::kTooFewMatches) {
+    attempt.verdict = LoopCheck::kGeometryDisagrees;
+  }
+  result_.loop_attempts.push_back(attempt);
+  return revisit;
+}
+
+bool FrontEnd::keyframeDue(const FollowResult& seen) const {
+  const Node& node = result_.graph.nodes[static_cast<std::size_t>(reference_)];
+  const Eigen::Isometry3d T_node_camera = node.T_world_camera.inverse() * seen.pose.T_world_camera;
+  const double turned_deg = Eigen::AngleAxisd(T_node_camera.linear()).angle() * 180.0 / 3.14159265358979;
+  double depth_sum = 0.0;
+  for (const Observation& o : seen.observations) {
+    depth_sum += 1.0 / result_.graph.landmarks[static_cast<std::size_t>(o.landmark)].inverse_depth;
+  }
+  const double mean_depth_m = depth_sum / std::max<double>(1.0, static_cast<double>(seen.observations.size()));
+  return seen.pose.inliers < config_.keyframe_overlap * seen_at_keyframe_ || turned_deg > config_.keyframe_rotation_deg ||
+         T_node_camera.translation().norm() > config_.keyframe_parallax * mean_depth_m;
+}
+
+/// On known ground the landmarks of nearby keyframes may do instead of a new keyframe.
+bool FrontEnd::borrowFromNeighbours(const Current& current, FollowResult& seen) {
+  const std::vector<int> nodes = neighbourhood(reference_, config_.neighbourhood);
+  if (*std::max_element(nodes.begin(), nodes.end()) == static_cast<int>(result_.graph.nodes.size()) - 1) {
+    return false;  // at the head of the drive all neighbours are in use already
+  }
+  std::vector<int> landmarks = landmarksOf(nodes);
+  FollowResult more = follow(current, seen.pose.T_world_camera, landmarks);
+  if (!more.tracked || more.pose.inliers <= seen.pose.inliers) {
+    return false;
+  }
+  active_ = std::move(landmarks);
+  seen = std::move(more);
+  T_world_camera_ = seen.pose.T_world_camera;
+  reference_ = mainHost(seen.observations);
+  seen_at_keyframe_ = std::max(seen_at_keyframe_ / 2, seen.pose.inliers);
+  return !keyframeDue(seen);
+}
+
+void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
+  const Features& features = current.getFeatures(camera_, config_.features);
+  const std::vector<int> near = neighbourhood(reference_, 2 * config_.neighbourhood);
+  std::vector<Revisit> revisits;
+  for (const PlaceIndex::Candidate& c : places_.query(features, config_.loop_candidates + static_cast<int>(near.size()))) {
+    if (c.votes < config_.min_loop_votes || static_cast<int>(revisits.size()) >= config_.loop_candidates) {
+      break;
+    }
+    if (!std::binary_search(near.begin(), near.end(), c.place)) {
+      if (auto revisit = verify(current, c)) {
+        revisits.push_back(std::move(*revisit));
+      }
+    }
+  }
+  const auto best = std::max_element(revisits.begin(), revisits.end(), [](const Revisit& a, const Revisit& b) { return a.overlap < b.overlap; });
+  const bool reuse = best != revisits.end() && best->overlap >= config_.reuse_overlap;
+  const int parent = reference_;
+  const int node = addNode(current, seen.pose.T_world_camera, !reuse);
+  addEdge(parent, node, EdgeKind::kOdometry, seen, seen.pose.T_world_camera);
+  Node& added = result_.graph.nodes[static_cast<std::size_t>(node)];
+  added.submap = result_.graph.nodes[static_cast<std::size_t>(parent)].submap;
+  added.observations = seen.observations;
+  for (const Revisit& revisit : revisits) {
+    addEdge(revisit.node, node, EdgeKind::kLoop, revisit.seen, revisit.seen.pose.T_world_camera);
+    result_.graph.edges.back().observations = revisit.seen.observations;
+  }
+  if (reuse) {
+    ++result_.reused_keyframes;
+    seen = best->seen;
+    adopt(seen);
+    active_ = landmarksOf(neighbourhood(best->node, config_.neighbourhood));
+    seen_at_keyframe_ = seen.pose.inliers;
+    return;
+  }
+  features_.back() = features;
+  places_.add(node, features);
+  host(current, node, seen.observations);
+  reference_ = node;
+  seen_at_keyframe_ = static_cast<int>(active_.size());
+}
+
+/// Goes on in the world of other nodes: what was seen there becomes the present.
+void FrontEnd::adopt(const FollowResult& seen) {
+  T_world_camera_ = seen.pose.T_world_camera;
+  reference_ = mainHost(seen.observations);
+  seen_at_keyframe_ = std::max(seen.pose.inliers, 1);
+}
+
+int FrontEnd::addNode(const Current& current, const Eigen::Isometry3d& T_world_camera, bool keyframe) {
+  Node node;
+  node.frame = current.frame.index;
+  node.stamp_ns = current.frame.stamp_ns;
+  node.keyframe = keyframe;
+  node.T_world_camera = T_world_camera;
+  result_.graph.nodes.push_back(std::move(node));
+  features_.emplace_back();
+  const int id = static_cast<int>(result_.graph.nodes.size()) - 1;
+  images_.put(id, current.pyramid);
+  return id;
+}
+
+void FrontEnd::addEdge(int from, int to, EdgeKind kind, const FollowResult& seen, const Eigen::Isometry3d& T_world_to) {
+  Edge edge;
+  edge.from = from;
+  edge.to = to;
+  edge.kind = kind;
+  edge.T_from_to = result_.graph.nodes[static_cast<std::size_t>(from)].T_world_camera.inverse() * T_world_to;
+  edge.information = seen.pose.covariance.inverse();
+  edge.inliers = seen.pose.inliers;
+  edge.rms_px = seen.pose.rms_px;
+  result_.graph.edges.push_back(edge);
+}
+
+/// New landmarks where none is seen; what was seen and what is new is looked for from now on.
+void FrontEnd::host(const Current& current, int node, const std::vector<Observation>& seen) {
+  std::vector<Eigen::Vector2d> occupied;
+  active_.clear();
+  for (const Observation& o : seen) {
+    occupied.push_back(o.pixel.cast<double>());
+    active_.push_back(o.landmark);
+  }
+  for (Landmark& landmark : detectCorners(current.frame, occupied, config_.corners)) {
+    landmark.host = node;
+    const int id = static_cast<int>(result_.graph.landmarks.size());
+    result_.graph.landmarks.push_back(landmark);
+    result_.graph.nodes[static_cast<std::size_t>(node)].hosted.push_back(id);
+    active_.push_back(id);
+  }
+}
+
+int FrontEnd::mainHost(const std::vector<Observation>& observations) const {
+  std::map<int, int> count;
+  for (const Observation& o : observations) {
+    ++count[result_.graph.landmarks[static_cast<std::size_t>(o.landmark)].host];
+  }
+  OIKOS_CHECK(!count.empty());
+  return std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+}
+
+/// Nodes up to `rings` odometry edges away, in order of their number: their worlds agree, whatever has drifted elsewhere.
+std::vector<int> FrontEnd::neighbourhood(int node, int rings) const {
+  std::set<int> found{node};
+  for (int ring = 0; ring < rings; ++ring) {
+    std::set<int> wider = found;
+    for (const Edge& e : result_.graph.edges) {
+      if (e.kind == EdgeKind::kOdometry && found.contains(e.from)) {
+        wider.insert(e.to);
+      }
+      if (e.kind == EdgeKind::kOdometry && found.contains(e.to)) {
+        wider.insert(e.from);
+      }
+    }
+    found = std::move(wider);
+  }
+  return {found.begin(), found.end()};
+}
+
+std::vector<int> FrontEnd::landmarksOf(const std::vector<int>& nodes) const {
+  std::vector<int> landmarks;
+  for (const int node : nodes) {
+    const auto& hosted = result_.graph.nodes[static_cast<std::size_t>(node)].hosted;
+    landmarks.insert(landmarks.end(), hosted.begin(), hosted.end());
+  }
+  std::sort(landmarks.begin(), landmarks.end());
+  return landmarks;
+}
+
+void FrontEnd::record(const Current& current, const FollowResult& seen, TrackingStatus status) {
+  TrackedFrame tracked;
+  tracked.frame = current.frame.index;
+  tracked.stamp_ns = current.frame.stamp_ns;
+  tracked.status = status;
+  tracked.reference = reference_;
+  tracked.T_reference_frame = result_.graph.nodes[static_cast<std::size_t>(reference_)].T_world_camera.inverse() * T_world_camera_;
+  if (status != TrackingStatus::kLost) {
+    tracked.observations = seen.observations;
+    tracked.rms_px = seen.pose.rms_px;
+  } else {
+    ++result_.lost_frames;
+  }
+  result_.frames.push_back(std::move(tracked));
+}
+
+}  // namespace oikos::mapping

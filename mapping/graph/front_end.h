@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/camera/rgbd_frame.h"
+#include "mapping/graph/keyframe_graph.h"
+#include "mapping/graph/keyframe_images.h"
+#include "mapping/graph/place_index.h"
+#include "mapping/odometry/corner_detector.h"
+#include "mapping/odometry/features.h"
+#include "mapping/odometry/landmark_follower.h"
+#include "mapping/odometry/relative_motion.h"
+
+namespace oikos::mapping {
+
+struct FrontEndConfig {
+  FeatureConfig features;
+  CornerDetectorConfig corners;
+  FollowerConfig follower;
+  RelativeMotionConfig motion;
+  int pyramid_levels = 5;
+  double keyframe_overlap = 0.7;      ///< share of the landmarks seen at the last keyframe; below it a new one is due (S44)
+  double keyframe_rotation_deg = 20.0; ///< and when the view has turned by more than this
+  double keyframe_parallax = 0.25;    ///< and when the camera has moved by more than this share of the median depth
+  int neighbourhood = 3;              ///< keyframes this many edges away lend their landmarks
+  int loop_candidates = 4;            ///< places verified per keyframe
+  int min_loop_votes = 15;
+  double reuse_overlap = 0.6;         ///< share of an old keyframe's landmarks that must be seen again to take it instead of a new one
+  int max_lost_frames = 5;            ///< lost for longer: a new sub-map is begun
+};
+
+enum class TrackingStatus { kTracked, kRelocalised, kLost, kStart };
+
+/// One frame of the drive as the front end saw it. Its pose hangs on a node, so that it moves along when the graph is optimised.
+struct TrackedFrame {
+  int frame = -1;
+  std::int64_t stamp_ns = 0;
+  TrackingStatus status = TrackingStatus::kLost;
+  int reference = -1;  ///< node
+  Eigen::Isometry3d T_reference_frame = Eigen::Isometry3d::Identity();
+  std::vector<Observation> observations;
+  double rms_px = 0.0;
+};
+
+enum class LoopCheck { kTooFewMatches, kGeometryDisagrees, kAccepted };
+
+struct LoopAttempt {
+  int from = -1;   ///< the old node
+  int frame = -1;  ///< seen again in this frame
+  int votes = 0;
+  int inliers = 0;
+  double rms_px = 0.0;
+  LoopCheck verdict = LoopCheck::kTooFewMatches;
+};
+
+struct FrontEndResult {
+  KeyframeGraph graph;
+  std::vector<TrackedFrame> frames;
+  std::vector<LoopAttempt> loop_attempts;
+  int submaps = 0;
+  int lost_frames = 0;
+  int relocalisations = 0;
+  int reused_keyframes = 0;
+};
+
+/// From images to a graph of keyframes, one frame at a time: follows landmarks, sets keyframes where the view changes, recognises
+/// places, recovers lost tracking or begins a new sub-map. Not thread-safe.
+class FrontEnd {
+ public:
+  FrontEnd(const camera::PinholeCamera& camera, const FrontEndConfig& config, KeyframeImages& images, std::uint64_t seed);
+
+  void add(const camera::RgbdFrame& frame);
+  /// The front end is empty afterwards.
+  [[nodiscard]] FrontEndResult finish() { return std::move(result_); }
+
+ private:
+  struct Current;
+  void startSubmap(const Current& current);
+  [[nodiscard]] Eigen::Isometry3d predict(const Current& current) const;
+  [[nodiscard]] FollowResult follow(const Current& current, const Eigen::Isometry3d& T_world_camera, const std::vector<int>& landmarks) const;
+  [[nodiscard]] std::optional<FollowResult> recover(Current& current);
+  [[nodiscard]] bool keyframeDue(const FollowResult& seen) const;
+  bool borrowFromNeighbours(const Current& current, FollowResult& seen);
+  void addKeyframe(Current& current, FollowResult& seen);
+  struct Revisit;
+  [[nodiscard]] std::optional<Revisit> verify(const Current& current, const PlaceIndex::Candidate& candidate);
+  void record(const Current& current, const FollowResult& seen, TrackingStatus status);
+  int addNode(const Current& current, const Eigen::Isometry3d& T_world_camera, bool keyframe);
+  void addEdge(int from, int to, EdgeKind kind, const FollowResult& seen, const Eigen::Isometry3d& T_world_to);
+  void host(const Current& current, int node, const std::vector<Observation>& seen);
+  [[nodiscard]] int mainHost(const std::vector<Observation>& observations) const;
+  [[nodiscard]] std::vector<int> neighbourhood(int node, int rings) const;
+  [[nodiscard]] std::vector<int> landmarksOf(const std::vector<int>& nodes) const;
+  void adopt(const FollowResult& seen);
+
+  camera::PinholeCamera camera_;
+  FrontEndConfig config_;
+  KeyframeImages& images_;
+  std::uint64_t seed_;
+  FrontEndResult result_;
+  PlaceIndex places_;
+  std::vector<Features> features_;  ///< one a node; empty for bridges
+  std::vector<int> active_;         ///< landmarks looked for in the next frame
+  int reference_ = -1;              ///< node whose landmarks are seen most
+  int seen_at_keyframe_ = 0;
+  int lost_in_a_row_ = 0;
+  Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_previous_current_ = Eigen::Isometry3d::Identity();  ///< the last motion
+  std::shared_ptr<const ImagePyramid> previous_;
+};
+
+}  // namespace oikos::mapping

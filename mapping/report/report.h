@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "core/base/enum_table.h"
+#include "core/camera/pinhole_camera.h"
+#include "core/recording/trajectory.h"
+
+namespace oikos::mapping {
+
+/// A frame, or a line of a list, that could not be used, and why.
+struct SkippedFrame {
+  std::string name;    ///< as the recording calls it, relative to its folder
+  std::string reason;  ///< one line for a person
+};
+
+struct RecordingFacts {
+  std::string format;     ///< "tum", "7-scenes", …
+  int frames_listed = 0;  ///< colour images that the recording names
+  int frames_read = 0;    ///< colour and depth decoded and used
+  int skipped = 0;        ///< unreadable: missing, truncated, of a wrong size
+  int unmatched = 0;      ///< colour without depth near enough in time
+  int duplicates = 0;     ///< repeated stamps
+  std::vector<SkippedFrame> messages;
+  camera::PinholeCamera camera;  ///< the rectified colour camera
+};
+
+/// How a frame got its pose.
+enum class FrameStatus {
+  kTracked,      ///< followed from the frames before
+  kRelocalised,  ///< found again after a loss
+  kCoasting,     ///< carried over a short gap by odometry or by the motion so far
+  kLost,         ///< keeps the last pose
+};
+constexpr auto enumTable(FrameStatus) {
+  return std::to_array<base::EnumName<FrameStatus>>({{FrameStatus::kTracked, "tracked"},
+                                                     {FrameStatus::kRelocalised, "relocalised"},
+                                                     {FrameStatus::kCoasting, "coasting"},
+                                                     {FrameStatus::kLost, "lost"}});
+}
+
+struct FrameFacts {
+  FrameStatus status = FrameStatus::kLost;
+  int inliers = 0;           ///< matches that agree with the motion
+  double residual_px = 0.0;  ///< root mean square over the inliers; NaN when there are none
+  bool is_keyframe = false;
+};
+
+enum class LoopVerdict { kAccepted, kDownWeighted, kRejectedByGeometry, kRejectedByConsistency };
+constexpr auto enumTable(LoopVerdict) {
+  return std::to_array<base::EnumName<LoopVerdict>>({{LoopVerdict::kAccepted, "accepted"},
+                                                     {LoopVerdict::kDownWeighted, "down-weighted"},
+                                                     {LoopVerdict::kRejectedByGeometry, "rejected-by-geometry"},
+                                                     {LoopVerdict::kRejectedByConsistency, "rejected-by-consistency"}});
+}
+
+/// A place that looked like one seen before, and what became of it.
+struct LoopFacts {
+  int from_frame = 0;  ///< the later one; index into MapReport::frames
+  int to_frame = 0;    ///< the earlier one
+  int inliers = 0;
+  double residual_px = 0.0;
+  LoopVerdict verdict = LoopVerdict::kRejectedByGeometry;
+};
+
+/// A number that the optimiser was free to change.
+struct RefinedValue {
+  std::string name;  ///< with its unit: "rolling_shutter_readout_s", "depth_scale", "fx_px"
+  double before = 0.0;
+  double after = 0.0;
+};
+
+struct OptimisationFacts {
+  double initial_cost = 0.0;
+  double final_cost = 0.0;
+  int iterations = 0;
+  bool converged = false;
+  std::vector<RefinedValue> refined;
+};
+
+enum class FloorSighting { kFound, kNotInSight };
+constexpr auto enumTable(FloorSighting) {
+  return std::to_array<base::EnumName<FloorSighting>>({{FloorSighting::kFound, "found"}, {FloorSighting::kNotInSight, "not-in-sight"}});
+}
+
+struct FloorFacts {
+  FloorSighting status = FloorSighting::kNotInSight;
+  double camera_height_m = 0.0;  ///< of the first frame's camera over the floor
+};
+
+struct VolumeFacts {
+  double resolution_m = 0.0;
+  std::int64_t voxels_occupied = 0;
+  std::int64_t voxels_free = 0;
+  std::int64_t cells_occupied = 0;  ///< of the 2D grid
+  std::int64_t cells_free = 0;
+  std::int64_t cloud_points = 0;
+  std::int64_t mesh_triangles = 0;
+  Eigen::Vector3d box_min_m = Eigen::Vector3d::Zero();  ///< of the cloud, frame map
+  Eigen::Vector3d box_max_m = Eigen::Vector3d::Zero();
+};
+
+/// The 2D grid as `grid.pgm` has it: row 0 is the greatest y; 0 occupied, 254 free, anything else unknown.
+struct GridPicture {
+  cv::Mat cells;                                       ///< CV_8UC1; empty: there is none
+  double resolution_m = 0.0;                           ///< side of a cell
+  Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();  ///< lower left corner of the lower left cell, frame map
+};
+
+/// Everything that `report.json` and `report.html` tell about a map. Plain values, equal for equal input: no time of day, no
+/// time taken, no path, no thread count. One entry of `frames` and `trajectory` per frame read, in order.
+struct MapReport {
+  RecordingFacts recording;
+  std::vector<FrameFacts> frames;
+  recording::Trajectory trajectory;               ///< T_map_camera, final
+  recording::Trajectory trajectory_before_loops;  ///< the same frames by odometry alone, first pose as above; empty: not kept
+  int submaps = 1;                                ///< pieces that tracking left, because it was lost in between
+  int submaps_joined = 1;                         ///< pieces that are in the one map, the first included
+  int relocalisations = 0;
+  std::vector<LoopFacts> loops;
+  OptimisationFacts optimisation;
+  FloorFacts floor;
+  VolumeFacts volume;
+  GridPicture grid;
+  std::vector<std::string> warnings;  ///< one line each, for a person
+};
+
+/// `report.json`: everything but the grid's picture, in a fixed order of keys, UTF-8. Not finite numbers become null.
+[[nodiscard]] std::string reportJson(const MapReport& report);
+
+/// `report.html`: one page that needs nothing else, readable on a screen (light and dark) and on paper; well-formed XML, too.
+[[nodiscard]] std::string reportHtml(const MapReport& report);
+
+}  // namespace oikos::mapping

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "mapping/report/figures.h"
+#include "mapping/report/json_text.h"
+#include "mapping/report/report.h"
+#include "mapping/report/summary.h"
+
+namespace oikos::mapping {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vectorJson(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+Json summaryJson(const MapSummary& summary) {
+  Json findings = Json::array();
+  for (const Finding& finding : summary.findings) {
+    findings.push_back({{"weight", base::toString(finding.weight)}, {"what", finding.what}, {"advice", finding.advice}});
+  }
+  return {{"verdict", base::toString(summary.verdict)},
+          {"headline", summary.headline},
+          {"story", summary.story},
+          {"findings", std::move(findings)}};
+}
+
+Json recordingJson(const RecordingFacts& recording) {
+  Json messages = Json::array();
+  for (const SkippedFrame& frame : recording.messages) {
+    messages.push_back({{"name", frame.name}, {"reason", frame.reason}});
+  }
+  const camera::PinholeCamera& camera = recording.camera;
+  return {{"format", recording.format},
+          {"frames_listed", recording.frames_listed},
+          {"frames_read", recording.frames_read},
+          {"frames_skipped", recording.skipped},
+          {"frames_unmatched", recording.unmatched},
+          {"frames_duplicate", recording.duplicates},
+          {"messages", std::move(messages)},
+          {"camera",
+           {{"width_px", camera.width},
+            {"height_px", camera.height},
+            {"fx_px", camera.fx},
+            {"fy_px", camera.fy},
+            {"cx_px", camera.cx},
+            {"cy_px", camera.cy}}}};
+}
+
+Json trackingJson(const MapReport& report, const ReportFigures& figures) {
+  return {{"frames", figures.frames},
+          {"tracked", figures.tracked},
+          {"relocalised", figures.relocalised},
+          {"coasting", figures.coasting},
+          {"lost", figures.lost},
+          {"keyframes", figures.keyframes},
+          {"submaps", report.submaps},
+          {"submaps_joined", report.submaps_joined},
+          {"relocalisations", report.relocalisations},
+          {"drive_s", figures.drive_s},
+          {"path_m", figures.path_m},
+          {"median_inliers", figures.median_inliers},
+          {"median_residual_px", figures.median_residual_px}};
+}
+
+Json loopsJson(const MapReport& report, const ReportFigures& figures) {
+  Json list = Json::array();
+  for (const LoopFacts& loop : report.loops) {
+    list.push_back({{"from_frame", loop.from_frame},
+                    {"to_frame", loop.to_frame},
+                    {"inliers", loop.inliers},
+                    {"residual_px", loop.residual_px},
+                    {"verdict", base::toString(loop.verdict)}});
+  }
+  return {{"accepted", figures.loops_accepted},
+          {"down_weighted", figures.loops_down_weighted},
+          {"rejected", figures.loops_rejected},
+          {"largest_correction_m", figures.largest_correction_m},
+          {"list", std::move(list)}};
+}
+
+Json optimisationJson(const OptimisationFacts& optimisation) {
+  Json refined = Json::array();
+  for (const RefinedValue& value : optimisation.refined) {
+    refined.push_back({{"name", value.name}, {"before", value.before}, {"after", value.after}});
+  }
+  return {{"initial_cost", optimisation.initial_cost},
+          {"final_cost", optimisation.final_cost},
+          {"iterations", optimisation.iterations},
+          {"converged", optimisation.converged},
+          {"refined", std::move(refined)}};
+}
+
+Json floorJson(const FloorFacts& floor) {
+  Json json = {{"status", base::toString(floor.status)}};
+  json["camera_height_m"] = floor.status == FloorSighting::kFound ? Json(floor.camera_height_m) : Json(nullptr);
+  return json;
+}
+
+Json volumeJson(const VolumeFacts& volume, const ReportFigures& figures) {
+  return {{"resolution_m", volume.resolution_m},       {"voxels_occupied", volume.voxels_occupied},
+          {"voxels_free", volume.voxels_free},         {"cells_occupied", volume.cells_occupied},
+          {"cells_free", volume.cells_free},           {"free_area_m2", figures.free_area_m2},
+          {"cloud_points", volume.cloud_points},       {"mesh_triangles", volume.mesh_triangles},
+          {"box_min_m", vectorJson(volume.box_min_m)}, {"box_max_m", vectorJson(volume.box_max_m)}};
+}
+
+Json positionJson(const recording::Trajectory& trajectory, std::size_t i) {
+  return i < trajectory.size() ? vectorJson(trajectory[i].T_map_camera.translation()) : Json(nullptr);
+}
+
+/// One row a frame: a table that is short to write and loads into any program for tables.
+Json framesJson(const MapReport& report) {
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < report.frames.size(); ++i) {
+    const FrameFacts& frame = report.frames[i];
+    const auto since_start_ns = static_cast<double>(report.trajectory[i].stamp_ns - report.trajectory.front().stamp_ns);
+    rows.push_back({since_start_ns * 1e-9, base::toString(frame.status), frame.inliers, frame.residual_px, frame.is_keyframe,
+                    positionJson(report.trajectory, i), positionJson(report.trajectory_before_loops, i)});
+  }
+  return {
+      {"columns", {"since_start_s", "status", "inliers", "residual_px", "is_keyframe", "position_map_m", "position_before_loops_map_m"}},
+      {"rows", std::move(rows)}};
+}
+
+}  // namespace
+
+std::string reportJson(const MapReport& report) {
+  const ReportFigures figures = figuresOf(report);
+  Json json = {{"format", "oikos-map-report"}, {"version", 1}};
+  json["summary"] = summaryJson(summarise(report, figures));
+  json["warnings"] = report.warnings;
+  json["recording"] = recordingJson(report.recording);
+  json["tracking"] = trackingJson(report, figures);
+  json["loops"] = loopsJson(report, figures);
+  json["optimisation"] = optimisationJson(report.optimisation);
+  json["floor"] = floorJson(report.floor);
+  json["map"] = volumeJson(report.volume, figures);
+  json["frames"] = framesJson(report);
+  return jsonText(json);
+}
+
+}  // namespace oikos::mapping

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/mapper.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Option.hpp>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/config.h"
+#include "core/base/number_text.h"
+#include "core/recording/recording.h"
+#include "mapping/robot_mount.h"
+#include "tools/command.h"
+#include "tools/home_stage.h"
+#include "tools/terminal_progress.h"
+
+namespace oikos::tools {
+
+namespace {
+
+constexpr const char* kExamples =
+    "  oikos map ~/drives/flat-3 --out ~/homes/flat-3\n"
+    "  oikos map rgbd_dataset_freiburg1_rpy --camera tum-fr1 --out desk --resolution 0.02\n"
+    "  oikos map ~/drives/flat-3 --out flat-3 --robot robot.urdf --base-link base_footprint --camera-link camera_optical\n"
+    "  oikos map ~/drives/flat-3 --out flat-3 --set volume.every_frame=true --json";
+
+struct MapOptions {
+  std::filesystem::path recording;
+  std::filesystem::path home;
+  std::string camera;
+  std::filesystem::path robot;
+  mapping::MountLinks links;
+  std::string features;
+  std::string resolution;
+  bool every_frame = false;
+  std::vector<std::string> settings;
+};
+
+void declareOptions(CLI::App& command, MapOptions& options) {
+  command.add_option("RECORDING", options.recording, "folder of the drive: TUM RGB-D or 7-Scenes")->required();
+  command.add_option("--out", options.home, "folder of the home; its map is made or replaced, the rest is kept")->required();
+  command.add_option("--camera", options.camera,
+                     "a camera.toml, or kinect1, tum-fr1, tum-fr2, tum-fr3, icl-nuim; default: the recording's own");
+  command.add_option("--features", options.features, "sift or orb");
+  command.add_option("--resolution", options.resolution, "edge of a voxel in metres, 0.01 to 1; default 0.05");
+  command.add_flag("--every-frame", options.every_frame, "build the volume from every frame, not from keyframes only");
+  command.add_option("--set", options.settings, "any parameter, as KEY=VALUE; may be repeated")->allow_extra_args(false);
+  auto* const robot = command.add_option("--robot", options.robot, "URDF of the robot that carries the camera");
+  auto* const camera_link = command.add_option("--camera-link", options.links.camera, "its optical link (z forward, y down)");
+  auto* const base_link = command.add_option("--base-link", options.links.base, "its base link (x forward, z up, on the floor)");
+  robot->needs(camera_link)->needs(base_link);
+  camera_link->needs(robot);
+  base_link->needs(robot);
+}
+
+mapping::MapConfig configOf(const MapOptions& options, const GlobalOptions& global) {
+  base::ConfigLayers layers{global.config, {}};
+  for (const std::string& text : options.settings) {
+    layers.settings.push_back(base::parseSetting(text));
+  }
+  if (!options.features.empty()) {
+    layers.settings.push_back({"features", options.features, "--features"});
+  }
+  if (!options.resolution.empty()) {
+    layers.settings.push_back({"volume.resolution_m", options.resolution, "--resolution"});
+  }
+  if (options.every_frame) {
+    layers.settings.push_back({"volume.every_frame", "true", "--every-frame"});
+  }
+  return base::loadConfig<mapping::MapConfig>(layers);
+}
+
+/// The robot's description wins over the recording's calibration.
+std::optional<Eigen::Isometry3d> mountOf(const MapOptions& options, const recording::Recording& recording) {
+  return options.robot.empty() ? recording.T_base_camera() : mapping::readMount(options.robot, options.links);
+}
+
+struct Summary {
+  std::filesystem::path home;
+  mapping::MapResult result;
+  double elapsed_s = 0.0;
+
+  [[nodiscard]] double framesPerSecond() const { return elapsed_s > 0.0 ? result.frames / elapsed_s : 0.0; }
+};
+
+void printJson(const Summary& summary) {
+  const mapping::MapResult& result = summary.result;
+  const nlohmann::ordered_json json = {
+      {"home", summary.home.string()},
+      {"frames", result.frames},
+      {"skipped_frames", result.skipped_frames},
+      {"lost_frames", result.lost_frames},
+      {"keyframes", result.keyframes},
+      {"loops", result.loops},
+      {"submaps", result.submaps},
+      {"floor_found", result.floor_found},
+      {"elapsed_s", summary.elapsed_s},
+      {"frames_per_s", summary.framesPerSecond()},
+  };
+  std::cout << json.dump(2) << '\n';
+}
+
+void printText(const Summary& summary) {
+  const mapping::MapResult& result = summary.result;
+  std::cout << result.frames << " frames in " << base::toFixedText(summary.elapsed_s, 1) << " s ("
+            << base::toFixedText(summary.framesPerSecond(), 1) << " per second), " << result.keyframes << " keyframes, " << result.loops
+            << " loops\n";
+  if (result.skipped_frames > 0) {
+    std::cout << result.skipped_frames << " frames could not be read\n";
+  }
+  if (result.lost_frames > 0) {
+    std::cout << result.lost_frames << " frames were lost and have the last pose before them\n";
+  }
+  if (result.submaps > 1) {
+    std::cout << "the drive fell into " << result.submaps << " parts that no loop has joined\n";
+  }
+  if (!result.floor_found) {
+    std::cout << "no floor was in sight: z = 0 is the first camera, and the grid is unknown\n";
+  }
+  std::cout << "map: " << (summary.home / "map").string() << "\nreport: " << (summary.home / "map" / "report.html").string() << '\n';
+}
+
+Summary buildHome(const MapOptions& options, const Session& session) {
+  const auto begin = std::chrono::steady_clock::now();
+  const mapping::MapConfig config = configOf(options, session.options);
+  const auto recording = recording::openRecording(options.recording, {.camera = options.camera});
+  TerminalProgress progress(session.options);
+  const mapping::MapRun run{.threads = session.options.threads,
+                            .seed = session.options.seed,
+                            .T_base_camera = mountOf(options, *recording),
+                            .progress = progress.sink()};
+  HomeStage stage(options.home, session.interrupts);
+  const mapping::MapResult result = mapping::buildMap(*recording, config, run, stage.mapFolder());
+  stage.commit();
+  return {options.home, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
+}
+
+}  // namespace
+
+void addMap(CLI::App& root) {
+  CLI::App& command = addCommand(root, {"map", "Builds the metric map of a home from a recorded drive.", kExamples});
+  const auto options = std::make_shared<MapOptions>();
+  declareOptions(command, *options);
+  setAction(command, [options](const Session& session) {
+    const Summary summary = buildHome(*options, session);
+    session.options.json ? printJson(summary) : printText(summary);
+    return ExitCode::kDone;
+  });
+}
+
+}  // namespace oikos::tools
