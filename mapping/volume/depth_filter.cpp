@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mapping/volume/depth_filter.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -12,9 +14,17 @@ namespace oikos::mapping {
 
 namespace {
 
-/// False for a neighbour without a reading: that says nothing.
-bool isStep(float depth, float neighbour, float ratio) {
-  return std::fabs(neighbour - depth) > ratio * depth;
+constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
+
+/// What stays of a reading, given its four neighbours. A neighbour without a reading (NaN) says nothing. No branches: the
+/// compiler makes vectors of it.
+float keep(float depth, const std::array<float, 4>& neighbours, const std::array<float, 3>& limits) {
+  const float step = limits[2] * depth;
+  int refused = (depth >= limits[0] ? 0 : 1) | (depth <= limits[1] ? 0 : 1);
+  for (const float neighbour : neighbours) {
+    refused |= std::fabs(neighbour - depth) > step ? 1 : 0;
+  }
+  return refused != 0 ? kNoReading : depth;
 }
 
 }  // namespace
@@ -28,24 +38,25 @@ std::vector<std::string> DepthFilterConfig::validate() const {
 
 cv::Mat filterDepth(const cv::Mat& depth_m, const DepthFilterConfig& config) {
   OIKOS_CHECK(depth_m.type() == CV_32FC1);
-  cv::Mat filtered(depth_m.size(), CV_32FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN()));
-  const auto nearest = static_cast<float>(config.min_depth_m);
-  const auto farthest = static_cast<float>(config.max_depth_m);
-  const auto ratio = static_cast<float>(config.max_step_ratio);
-  const int margin = config.edge_px;
-  for (int v = margin; v < depth_m.rows - margin; ++v) {
+  const std::array<float, 3> limits = {static_cast<float>(config.min_depth_m), static_cast<float>(config.max_depth_m),
+                                       static_cast<float>(config.max_step_ratio)};
+  const int margin = std::min({config.edge_px, depth_m.rows / 2, depth_m.cols / 2});
+  cv::Mat filtered(depth_m.size(), CV_32FC1);
+  for (int v = 0; v < depth_m.rows; ++v) {
+    float* out = filtered.ptr<float>(v);
+    const bool is_border = v < margin || v >= depth_m.rows - margin;
+    if (is_border) {
+      std::fill(out, out + depth_m.cols, kNoReading);
+      continue;
+    }
     const float* above = depth_m.ptr<float>(v - margin);
     const float* row = depth_m.ptr<float>(v);
     const float* below = depth_m.ptr<float>(v + margin);
-    float* out = filtered.ptr<float>(v);
+    std::fill(out, out + margin, kNoReading);
     for (int u = margin; u < depth_m.cols - margin; ++u) {
-      const float depth = row[u];
-      const bool is_edge = isStep(depth, above[u], ratio) || isStep(depth, below[u], ratio) || isStep(depth, row[u - margin], ratio) ||
-                           isStep(depth, row[u + margin], ratio);
-      if (depth >= nearest && depth <= farthest && !is_edge) {
-        out[u] = depth;
-      }
+      out[u] = keep(row[u], {above[u], below[u], row[u - margin], row[u + margin]}, limits);
     }
+    std::fill(out + depth_m.cols - margin, out + depth_m.cols, kNoReading);
   }
   return filtered;
 }

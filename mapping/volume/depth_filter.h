@@ -9,7 +9,7 @@ namespace oikos::mapping {
 
 /// Which readings are good enough for surfaces (cloud, mesh, floor); occupancy takes them all.
 struct DepthFilterConfig {
-  double min_depth_m = 0.3;
+  double min_depth_m = 0.25;
   double max_depth_m = 4.0;      ///< a structured-light camera's noise is 2.5 cm there
   double max_step_ratio = 0.03;  ///< a reading this share nearer or farther than one beside it lies on an edge, perhaps in mid-air
   int edge_px = 2;               ///< how far away "beside" is

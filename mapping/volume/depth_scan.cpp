@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/base/error.h"
+#include "mapping/volume/pixel_rays.h"
 
 namespace oikos::mapping {
 
@@ -11,6 +12,7 @@ OccupancyScan makeScan(const PosedFrame& posed, const OccupancyConfig& config) {
   const cv::Mat& depth = posed.frame.depth_m;
   OIKOS_CHECK(depth.type() == CV_32FC1 && depth.cols == posed.camera.width && depth.rows == posed.camera.height);
   const Eigen::Isometry3f T_map_camera = posed.T_map_camera.cast<float>();
+  const PixelRays rays(posed.camera);
   OccupancyScan scan;
   scan.origin_map = T_map_camera.translation();
   const auto min_range_sq = static_cast<float>(config.min_range_m * config.min_range_m);
@@ -18,7 +20,7 @@ OccupancyScan makeScan(const PosedFrame& posed, const OccupancyConfig& config) {
     const float* row = depth.ptr<float>(v);
     for (int u = 0; u < depth.cols; u += config.pixel_stride) {
       if (row[u] > 0.0F) {
-        const Eigen::Vector3f point_camera = row[u] * posed.camera.ray(u, v).cast<float>();
+        const Eigen::Vector3f point_camera = rays.point(u, v, row[u]);
         if (point_camera.squaredNorm() >= min_range_sq) {
           scan.points_map.push_back(T_map_camera * point_camera);
         }

@@ -20,7 +20,7 @@ constexpr int kMinReadings = 3;     ///< a surface element from fewer is noise
 constexpr int kRansacRounds = 400;  ///< finds a plane of 12 % of the facing surface with 1 - 0.998^400 = 50 %, of 25 % surely
 constexpr int kMaxPlanes = 16;
 constexpr double kFacingCosine = 0.906;  ///< 25°: a single element's normal is rough
-constexpr double kLevelCosine = 0.985;   ///< 10°: a floor's is not
+constexpr double kLevelCosine = 0.9925;  ///< 7°: a floor's is not
 constexpr double kWellBelow_m = 0.15;
 constexpr double kDepthBias_m = 0.02;      ///< of one side of a floor against the other
 constexpr double kUpDeviation_rad = 0.02;  ///< of the direction that all surface votes for

@@ -8,6 +8,7 @@
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
 #include "core/geometry/ply.h"
+#include "mapping/volume/pixel_rays.h"
 
 namespace oikos::mapping {
 
@@ -45,12 +46,13 @@ void VoxelCloud::add(const PosedFrame& posed) {
   OIKOS_CHECK(depth.type() == CV_32FC1 && depth.cols == posed.camera.width && depth.rows == posed.camera.height);
   OIKOS_CHECK(color.type() == CV_8UC3 && color.size() == depth.size());
   const Eigen::Isometry3f T_map_camera = posed.T_map_camera.cast<float>();
+  const PixelRays rays(posed.camera);
   for (int v = 0; v < depth.rows; v += config_.pixel_stride) {
     const float* depth_row = depth.ptr<float>(v);
     const std::uint8_t* color_row = color.ptr<std::uint8_t>(v);
     for (int u = 0; u < depth.cols; u += config_.pixel_stride) {
       if (depth_row[u] > 0.0F) {
-        addPoint(T_map_camera * (depth_row[u] * posed.camera.ray(u, v).cast<float>()), color_row + 3 * u);
+        addPoint(T_map_camera * rays.point(u, v, depth_row[u]), color_row + 3 * u);
       }
     }
   }
@@ -67,11 +69,12 @@ void VoxelCloud::addPoint(const Eigen::Vector3f& point_map, const std::uint8_t* 
   }
   ++entry.count;
   const auto numbers = unpackVoxelKey(*key);
+  const double voxels_per_m = 1.0 / config_.voxel_m;
   std::array<std::uint32_t, 6> values{0, 0, 0, bgr[2], bgr[1], bgr[0]};
   for (int a = 0; a < 3; ++a) {
     const auto i = static_cast<std::size_t>(a);
-    const double within = static_cast<double>(point_map[a]) / config_.voxel_m - (numbers[i] - kVoxelKeyOrigin);
-    values[i] = static_cast<std::uint32_t>(std::clamp(256.0 * within, 0.0, 255.0));
+    const double within = static_cast<double>(point_map[a]) * voxels_per_m - (numbers[i] - kVoxelKeyOrigin);
+    values[i] = static_cast<std::uint32_t>(std::clamp(static_cast<int>(256.0 * within), 0, 255));
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::uint32_t sum = entry.low[i] + (std::uint32_t{entry.high[i]} << 16U) + values[i];
