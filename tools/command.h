@@ -53,7 +53,7 @@ CLI::App& addCommand(CLI::App& parent, const CommandText& text);
 void setAction(CLI::App& command, Action action);
 
 // One file each: tools/NAME.cpp.
-void addEvaluate(CLI::App& root);
-void addMap(CLI::App& root);
+void addEvaluateCommand(CLI::App& root);
+void addMapCommand(CLI::App& root);
 
 }  // namespace oikos::tools

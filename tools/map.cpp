@@ -143,7 +143,7 @@ Summary buildHome(const MapOptions& options, const Session& session) {
 
 }  // namespace
 
-void addMap(CLI::App& root) {
+void addMapCommand(CLI::App& root) {
   CLI::App& command = addCommand(root, {"map", "Builds the metric map of a home from a recorded drive.", kExamples});
   const auto options = std::make_shared<MapOptions>();
   declareOptions(command, *options);

@@ -120,7 +120,6 @@ Program::Program() : root_(std::make_unique<CLI::App>("Gives a domestic robot a 
       "  oikos map ~/drives/flat-3 --out ~/homes/flat-3\n"
       "  oikos map --help\n"
       "Exit codes: 0 done, 1 no answer, 2 wrong usage, 3 wrong input, 4 I/O, 5 internal error.");
-  addEvaluate(root);
 }
 
 ExitCode Program::run(int argc, char** argv) {
