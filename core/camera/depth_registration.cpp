@@ -10,10 +10,21 @@
 
 namespace oikos::camera {
 
+/// Where the readings of one row appear in the colour camera; those that do not are far outside the image.
+struct DepthRegistration::ProjectedRow {
+  explicit ProjectedRow(std::size_t size) : reading_m(size), z_m(size), u_px(size), v_px(size) {}
+  std::vector<float> reading_m;  ///< distance to the depth camera
+  std::vector<float> z_m;        ///< distance to the colour camera
+  std::vector<float> u_px, v_px;
+};
+
 namespace {
 
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
 constexpr float kNothingYet = std::numeric_limits<float>::infinity();
+
+constexpr float kNearest_m = 0.01F;
+constexpr float kLargestGrowth = 4.0F;  // of a splat, where a reading is nearer to the colour camera than to the depth camera
 
 /// A surface seen more frontally by the colour camera than by the depth camera is stretched; room for a slant of about 60 degrees with
 /// the few centimetres between the cameras of one sensor.
@@ -23,41 +34,69 @@ float metres(std::uint16_t stored, float unit_m) {
   return stored == 0 || stored == 65535 ? kNoReading : static_cast<float>(stored) * unit_m;
 }
 
-/// The colour pixels that the readings of one row cover.
-struct SplatRow {
-  explicit SplatRow(std::size_t size) : z_m(size), left(size), right(size), top(size), bottom(size) {}
-  std::vector<float> z_m;
-  std::vector<std::int32_t> left, right, top, bottom;  ///< inclusive and inside the image; left > right or top > bottom: nothing
-};
+constexpr float kNowhere_px = -1e6F;
 
-/// One axis of the half-open interval (centre - half, centre + half] as whole pixels; a half of 0.5 gives the nearest pixel and only that.
-struct AxisRounder {
-  explicit AxisRounder(int size_px, float largest_half_px)
-      : last_px(size_px - 1),
-        bias_px(static_cast<int>(std::ceil(largest_half_px)) + 3),
-        low_px(static_cast<float>(3 - bias_px)),
-        high_px(static_cast<float>(size_px + bias_px)) {}
-  [[nodiscard]] float clamp(float centre_px) const { return std::min(std::max(centre_px, low_px), high_px); }
-  [[nodiscard]] std::int32_t first(float centre_px, float half_px) const {
-    return std::max(static_cast<std::int32_t>(centre_px - half_px + static_cast<float>(bias_px + 1)) - bias_px, 0);
-  }
-  [[nodiscard]] std::int32_t last(float centre_px, float half_px) const {
-    return std::min(static_cast<std::int32_t>(centre_px + half_px + static_cast<float>(bias_px)) - bias_px, last_px);
-  }
-  std::int32_t last_px;
-  std::int32_t bias_px;  ///< keeps what is truncated positive
-  float low_px;
-  float high_px;
-};
+/// Nearest whole pixel; a negative number for everything left of the image, far outside included.
+int roundPixel(float pixel) {
+  return static_cast<int>(pixel + 1.5F) - 1;
+}
 
-void paint(const SplatRow& row, cv::Mat& depth_m) {
+template <typename Row>
+void paintNearest(const Row& row, cv::Mat& depth_m) {
+  const auto width = static_cast<unsigned>(depth_m.cols);
+  const auto height = static_cast<unsigned>(depth_m.rows);
+  auto* pixels = depth_m.ptr<float>();
   for (std::size_t i = 0; i < row.z_m.size(); ++i) {
-    for (int v = row.top[i]; v <= row.bottom[i]; ++v) {
-      float* pixels = depth_m.ptr<float>(v);
-      for (int u = row.left[i]; u <= row.right[i]; ++u) {
+    const auto u = static_cast<unsigned>(roundPixel(row.u_px[i]));
+    const auto v = static_cast<unsigned>(roundPixel(row.v_px[i]));
+    if (u < width && v < height) {
+      float& pixel = pixels[v * width + u];
+      pixel = std::min(pixel, row.z_m[i]);
+    }
+  }
+}
+
+/// Whole pixels of the half-open interval (centre - half, centre + half], clipped to the image.
+struct Span {
+  Span(float centre_px, float half_px, int size_px)
+      : first(std::max(static_cast<int>(std::floor(centre_px - half_px)) + 1, 0)),
+        last(std::min(static_cast<int>(std::floor(centre_px + half_px)), size_px - 1)) {}
+  int first;
+  int last;
+};
+
+template <typename Row>
+void paintFootprints(const Row& row, const cv::Size2f& half_px, cv::Mat& depth_m) {
+  for (std::size_t i = 0; i < row.z_m.size(); ++i) {
+    const float growth = std::min(row.reading_m[i] / std::max(row.z_m[i], kNearest_m), kLargestGrowth);
+    const Span across(row.u_px[i], std::max(0.5F, half_px.width * growth), depth_m.cols);
+    const Span down(row.v_px[i], std::max(0.5F, half_px.height * growth), depth_m.rows);
+    for (int v = down.first; v <= down.last; ++v) {
+      auto* pixels = depth_m.ptr<float>(v);
+      for (int u = across.first; u <= across.last; ++u) {
         pixels[u] = std::min(pixels[u], row.z_m[i]);
       }
     }
+  }
+}
+
+void liftReadings(const std::uint16_t* __restrict readings, float unit_m, std::size_t count, float* __restrict reading_m) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const int reading = readings[i] == 65535 ? 0 : readings[i];
+    reading_m[i] = static_cast<float>(reading) * unit_m;
+  }
+}
+
+float clampPixel(float pixel) {
+  const float not_left = pixel > kNowhere_px ? pixel : kNowhere_px;
+  return not_left < -kNowhere_px ? not_left : -kNowhere_px;
+}
+
+void markUnseen(cv::Mat& depth_m) {
+  auto* pixels = depth_m.ptr<float>();
+  const std::size_t count = depth_m.total();
+  for (std::size_t i = 0; i < count; ++i) {
+    pixels[i] = pixels[i] < kNothingYet ? pixels[i] : kNoReading;
   }
 }
 
@@ -78,12 +117,9 @@ void DepthRegistration::prepareSplatting(const DepthCamera& depth) {
   Eigen::Matrix3d K_color = Eigen::Matrix3d::Identity();
   K_color << color_.fx, 0.0, color_.cx, 0.0, color_.fy, color_.cy, 0.0, 0.0, 1.0;
   const Eigen::Matrix3d homography = K_color * depth.T_color_depth.linear();
-  const Eigen::Vector3d offset = K_color * depth.T_color_depth.translation();
-  offset_u_ = static_cast<float>(offset.x());
-  offset_v_ = static_cast<float>(offset.y());
-  offset_z_ = static_cast<float>(offset.z());
-  double widest_px = 1.0;
-  double highest_px = 1.0;
+  offset_ = (K_color * depth.T_color_depth.translation()).cast<float>();
+  Eigen::Vector2d largest_px = Eigen::Vector2d::Zero();
+  double largest_growth = 1.0;
   for (int v = 0; v < stored_.height; ++v) {
     for (int u = 0; u < stored_.width; ++u) {
       const Eigen::Vector3d ray = homography * stored_.ray(u, v);
@@ -93,13 +129,14 @@ void DepthRegistration::prepareSplatting(const DepthCamera& depth) {
       if (ray.z() > 0.0 && color_.contains(ray.head<2>() / ray.z())) {
         const Eigen::Vector2d right = (homography * stored_.ray(u + 1, v)).hnormalized() - ray.hnormalized();
         const Eigen::Vector2d below = (homography * stored_.ray(u, v + 1)).hnormalized() - ray.hnormalized();
-        widest_px = std::max(widest_px, kSlantRoom * (std::abs(right.x()) + std::abs(below.x())));
-        highest_px = std::max(highest_px, kSlantRoom * (std::abs(right.y()) + std::abs(below.y())));
+        largest_px = largest_px.cwiseMax((right.cwiseAbs() + below.cwiseAbs()) * ray.z());
+        largest_growth = std::max(largest_growth, 1.0 / ray.z());
       }
     }
   }
-  half_width_px_ = static_cast<float>(0.5 * widest_px);
-  half_height_px_ = static_cast<float>(0.5 * highest_px);
+  const Eigen::Vector2f half_px = (0.5 * kSlantRoom * largest_px).cast<float>();
+  half_splat_px_ = {half_px.x(), half_px.y()};
+  is_single_pixel_ = offset_.z() >= 0.0F && half_px.maxCoeff() * static_cast<float>(largest_growth) <= 0.5F;
 }
 
 cv::Mat DepthRegistration::toMetres(const cv::Mat& stored) const {
@@ -125,38 +162,47 @@ cv::Mat DepthRegistration::convert(const cv::Mat& stored) const {
   return depth_m;
 }
 
-cv::Mat DepthRegistration::splat(const cv::Mat& stored) const {
-  constexpr float kNearest_m = 0.01F;
-  constexpr float kLargestGrowth = 4.0F;  // of a splat whose reading is much nearer to the colour camera than to the depth camera
-  cv::Mat depth_m(color_.height, color_.width, CV_32FC1, cv::Scalar(kNothingYet));
-  const AxisRounder across(color_.width, half_width_px_ * kLargestGrowth);
-  const AxisRounder down(color_.height, half_height_px_ * kLargestGrowth);
-  const auto width = static_cast<std::size_t>(stored_.width);
-  SplatRow row(width);
-  for (int v = 0; v < stored_.height; ++v) {
-    const auto* readings = stored.ptr<std::uint16_t>(v);
-    const float* ray_u = &ray_u_[static_cast<std::size_t>(v) * width];
-    const float* ray_v = &ray_v_[static_cast<std::size_t>(v) * width];
-    const float* ray_z = &ray_z_[static_cast<std::size_t>(v) * width];
-    for (std::size_t i = 0; i < width; ++i) {
-      const float reading_m = static_cast<float>(readings[i]) * unit_m_;
-      const float z_m = ray_z[i] * reading_m + offset_z_;
-      const float inverse_z = 1.0F / std::max(z_m, kNearest_m);
-      const float growth = std::min(reading_m * inverse_z, kLargestGrowth);
-      const float half_width = std::max(0.5F, half_width_px_ * growth);
-      const float half_height = std::max(0.5F, half_height_px_ * growth);
-      const float u_px = across.clamp((ray_u[i] * reading_m + offset_u_) * inverse_z);
-      const float v_px = down.clamp((ray_v[i] * reading_m + offset_v_) * inverse_z);
-      const bool valid = readings[i] != 0 && readings[i] != 65535 && z_m > kNearest_m;
-      row.z_m[i] = z_m;
-      row.left[i] = across.first(u_px, half_width);
-      row.right[i] = across.last(u_px, half_width);
-      row.top[i] = down.first(v_px, half_height);
-      row.bottom[i] = valid ? down.last(v_px, half_height) : -1;
-    }
-    paint(row, depth_m);
+void DepthRegistration::project(const cv::Mat& stored, int v, ProjectedRow& row) const {
+  const std::size_t first = static_cast<std::size_t>(v) * static_cast<std::size_t>(stored_.width);
+  const std::size_t count = row.z_m.size();
+  liftReadings(stored.ptr<std::uint16_t>(v), unit_m_, count, row.reading_m.data());
+  const float* __restrict reading_m = row.reading_m.data();
+  const float* __restrict ray_u = &ray_u_[first];
+  const float* __restrict ray_v = &ray_v_[first];
+  const float* __restrict ray_z = &ray_z_[first];
+  float* __restrict z_m = row.z_m.data();
+  float* __restrict u_px = row.u_px.data();
+  float* __restrict v_px = row.v_px.data();
+  const Eigen::Array3f offset = offset_;
+  const float offset_u = offset[0];
+  const float offset_v = offset[1];
+  const float offset_z = offset[2];
+  for (std::size_t i = 0; i < count; ++i) {
+    const float z = ray_z[i] * reading_m[i] + offset_z;
+    const float inverse_z = 1.0F / (z > kNearest_m ? z : kNearest_m);
+    const float u = (ray_u[i] * reading_m[i] + offset_u) * inverse_z;
+    const float w = (ray_v[i] * reading_m[i] + offset_v) * inverse_z;
+    // added, not chosen by a branch, so that the compiler can vectorise
+    const float away_if_none = reading_m[i] > 0.0F ? 0.0F : 3.0F * kNowhere_px;
+    const float away_if_behind = z > kNearest_m ? 0.0F : 3.0F * kNowhere_px;
+    z_m[i] = z;
+    u_px[i] = clampPixel(u) + away_if_none + away_if_behind;
+    v_px[i] = clampPixel(w);
   }
-  depth_m.setTo(kNoReading, depth_m == kNothingYet);
+}
+
+cv::Mat DepthRegistration::splat(const cv::Mat& stored) const {
+  cv::Mat depth_m(color_.height, color_.width, CV_32FC1, cv::Scalar(kNothingYet));
+  ProjectedRow row(static_cast<std::size_t>(stored_.width));
+  for (int v = 0; v < stored_.height; ++v) {
+    project(stored, v, row);
+    if (is_single_pixel_) {
+      paintNearest(row, depth_m);
+    } else {
+      paintFootprints(row, half_splat_px_, depth_m);
+    }
+  }
+  markUnseen(depth_m);
   return depth_m;
 }
 

@@ -29,8 +29,11 @@ class DepthRegistration {
   [[nodiscard]] cv::Mat toMetres(const cv::Mat& stored) const;
 
  private:
+  struct ProjectedRow;
+
   [[nodiscard]] cv::Mat convert(const cv::Mat& stored) const;
   [[nodiscard]] cv::Mat splat(const cv::Mat& stored) const;
+  void project(const cv::Mat& stored, int v, ProjectedRow& row) const;
   void prepareSplatting(const DepthCamera& depth);
 
   PinholeCamera color_;
@@ -38,15 +41,13 @@ class DepthRegistration {
   float unit_m_ = 0.001F;                   ///< metres per stored unit
   std::vector<std::int32_t> source_index_;  ///< registered depth of a lens with distortion; else empty
   bool is_separate_ = false;
-  // Of a separate depth camera: the colour image of a reading d is (ray * d + offset) divided by its third component.
+  // Of a separate depth camera: the homogeneous colour pixel of a reading d (metres) is ray * d + offset.
   std::vector<float> ray_u_;
   std::vector<float> ray_v_;
   std::vector<float> ray_z_;
-  float offset_u_ = 0.0F;
-  float offset_v_ = 0.0F;
-  float offset_z_ = 0.0F;
-  float half_width_px_ = 0.5F;  ///< half the splat, at least half a colour pixel
-  float half_height_px_ = 0.5F;
+  Eigen::Vector3f offset_ = Eigen::Vector3f::Zero();
+  cv::Size2f half_splat_px_;      ///< of a surface at the same distance from both cameras
+  bool is_single_pixel_ = false;  ///< no splat is larger than a colour pixel
 };
 
 }  // namespace oikos::camera

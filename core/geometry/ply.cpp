@@ -14,7 +14,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/atomic_file.h"
 #include "core/base/error.h"
 
 namespace oikos::geometry {
@@ -113,7 +112,7 @@ class Source {
     double value = 0.0;
     const auto [end, failure] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
     if (failure != std::errc{}) {
-      fail("'" + std::string(rest_.substr(0, 20)) + "' is not a number");
+      fail(std::string(rest_.substr(0, 20)).append(" is not a number"));
     }
     rest_ = trimmed(rest_.substr(static_cast<std::size_t>(end - rest_.data())));
     return value;
@@ -370,26 +369,32 @@ ColoredMesh readBody(Source& source, const Header& header, Wanted wanted) {
   return mesh;
 }
 
-void writeVertexHeader(const ColoredCloud& cloud, std::ostream& stream) {
-  OIKOS_CHECK(cloud.colors.empty() || cloud.colors.size() == cloud.points.size());
-  stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << std::to_string(cloud.points.size())
+void writeVertexHeader(std::size_t count, bool colored, std::ostream& stream) {
+  stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << std::to_string(count)
          << "\nproperty float x\nproperty float y\nproperty float z\n";
-  if (!cloud.colors.empty()) {
+  if (colored) {
     stream << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   }
 }
 
+void writeVertex(const Eigen::Vector3f& point, const Rgb* color, std::ostream& stream) {
+  char record[3 * sizeof(float) + 3];
+  std::memcpy(record, point.data(), 3 * sizeof(float));
+  if (color != nullptr) {
+    std::memcpy(record + 3 * sizeof(float), color->data(), 3);
+  }
+  stream.write(record, color != nullptr ? 3 * sizeof(float) + 3 : 3 * sizeof(float));
+}
+
 void writeVertices(const ColoredCloud& cloud, std::ostream& stream) {
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    char record[3 * sizeof(float) + 3];
-    std::memcpy(record, cloud.points[i].data(), 3 * sizeof(float));
-    std::size_t size = 3 * sizeof(float);
-    if (!cloud.colors.empty()) {
-      std::memcpy(record + size, cloud.colors[i].data(), 3);
-      size += 3;
-    }
-    stream.write(record, static_cast<std::streamsize>(size));
+    writeVertex(cloud.points[i], cloud.colors.empty() ? nullptr : &cloud.colors[i], stream);
   }
+}
+
+void writeVertexHeader(const ColoredCloud& cloud, std::ostream& stream) {
+  OIKOS_CHECK(cloud.colors.empty() || cloud.colors.size() == cloud.points.size());
+  writeVertexHeader(cloud.points.size(), !cloud.colors.empty(), stream);
 }
 
 }  // namespace
@@ -404,6 +409,22 @@ ColoredMesh readPlyMesh(const std::filesystem::path& file) {
   Source source(file);
   const Header header = readHeader(source);
   return readBody(source, header, Wanted::kMesh);
+}
+
+PlyCloudWriter::PlyCloudWriter(const std::filesystem::path& file, std::size_t point_count) : target_(file), missing_(point_count) {
+  writeVertexHeader(point_count, true, target_.stream());
+  target_.stream() << "end_header\n";
+}
+
+void PlyCloudWriter::add(const Eigen::Vector3f& point, const Rgb& color) {
+  OIKOS_CHECK(missing_ > 0);
+  --missing_;
+  writeVertex(point, &color, target_.stream());
+}
+
+void PlyCloudWriter::commit() {
+  OIKOS_CHECK(missing_ == 0);
+  target_.commit();
 }
 
 void writePly(const ColoredCloud& cloud, const std::filesystem::path& file) {

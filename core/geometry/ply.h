@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 
+#include "core/base/atomic_file.h"
 #include "core/geometry/point_cloud.h"
 
 namespace oikos::geometry {
@@ -16,6 +18,19 @@ namespace oikos::geometry {
 /// As readPly, with the triangles of element `face` (`vertex_indices` or `vertex_index`); other polygons, and indices that
 /// point nowhere, are an Error{kInput}.
 [[nodiscard]] ColoredMesh readPlyMesh(const std::filesystem::path& file);
+
+/// Writes a coloured cloud point by point, for clouds that need not be held as one. Atomic; throws Error{kIo}.
+class PlyCloudWriter {
+ public:
+  PlyCloudWriter(const std::filesystem::path& file, std::size_t point_count);
+  void add(const Eigen::Vector3f& point, const Rgb& color);
+  /// Throws ContractViolation if not as many points came as were announced.
+  void commit();
+
+ private:
+  base::AtomicFile target_;
+  std::size_t missing_;
+};
 
 /// Binary little-endian, `float x y z` and, with colours, `uchar red green blue`. Atomic; throws Error{kIo}.
 void writePly(const ColoredCloud& cloud, const std::filesystem::path& file);

@@ -102,12 +102,12 @@ std::optional<std::int64_t> parseStampNs(std::string_view text) {
   const int shift = decimal->exponent + kStampDecimals;  // digits * 10^shift nanoseconds
   bool round_up = false;
   if (shift >= 0) {
-    decimal->digits.append(static_cast<std::size_t>(shift), '0');
+    decimal->digits += std::string(static_cast<std::size_t>(shift), '0');
   } else {
     const auto dropped = static_cast<std::size_t>(-shift);
     const std::size_t size = decimal->digits.size();
     round_up = dropped <= size && decimal->digits[size - dropped] >= '5';
-    decimal->digits.resize(dropped < size ? size - dropped : 0);
+    decimal->digits.erase(dropped < size ? size - dropped : 0);
   }
   std::int64_t stamp_ns = 0;
   const std::string& digits = decimal->digits;
@@ -129,7 +129,9 @@ std::string formatStamp(std::int64_t stamp_ns) {
   if (magnitude_ns % 1000 == 0) {
     fraction.resize(6);
   }
-  return (stamp_ns < 0 ? "-" : "") + std::to_string(magnitude_ns / kSecond_ns) + "." + fraction;
+  std::string text(stamp_ns < 0 ? 1 : 0, '-');
+  text.append(std::to_string(magnitude_ns / kSecond_ns)).append(1, '.').append(fraction);
+  return text;
 }
 
 std::string formatValue(double value) {

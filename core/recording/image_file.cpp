@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/read_file.h"
+#include "core/recording/depth_png.h"
 
 namespace oikos::recording {
 
@@ -53,8 +54,11 @@ cv::Mat decodeJpeg(const std::string& bytes, bool color, const std::filesystem::
   return image;
 }
 
-/// The PNG decoder does report a truncated file: as an empty image.
+/// The PNG decoder does report a corrupt file, as an empty image, but it prints too: what was cut off is found out without it.
 cv::Mat decodePng(const std::string& bytes, int mode, const std::filesystem::path& file) {
+  if (bytes.rfind("IEND") == std::string::npos) {
+    failTruncated(file, "the file ends early");
+  }
   const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));  // only read
   cv::Mat image = cv::imdecode(encoded, mode);
   if (image.empty()) {
@@ -85,19 +89,7 @@ cv::Mat readColorImage(const std::filesystem::path& file) {
 }
 
 cv::Mat readDepthImage(const std::filesystem::path& file) {
-  const std::string bytes = base::readFile(file);
-  if (!isPng(bytes)) {
-    throw Error(ErrorCode::kInput, bytes.empty() ? "the file is empty" : "not a PNG file; depth must be a 16-bit grey PNG", file.string());
-  }
-  cv::Mat depth = decodePng(bytes, cv::IMREAD_UNCHANGED, file);
-  if (depth.depth() != CV_16U) {
-    throw Error(ErrorCode::kInput, "8-bit depth; depth must be a 16-bit grey PNG", file.string());
-  }
-  if (depth.channels() != 1) {
-    throw Error(ErrorCode::kInput, "depth with " + std::to_string(depth.channels()) + " channels; it must be a 16-bit grey PNG",
-                file.string());
-  }
-  return depth;
+  return decodeDepthPng(base::readFile(file), file);
 }
 
 }  // namespace oikos::recording

@@ -13,29 +13,24 @@ namespace {
 
 double secondsBetween(const TrackedFrame& a, const TrackedFrame& b) { return 1e-9 * static_cast<double>(b.stamp_ns - a.stamp_ns); }
 
-/// Exposure of an image row after the stamp.
-double rowTime_s(double row_px, const SharedCalibration& calibration) {
-  return (row_px / calibration.camera.height - 0.5) * calibration.readout_s;
-}
-
-Eigen::Vector3d pointInWorld(const KeyframeGraph& graph, const Landmark& landmark, const SharedCalibration& calibration) {
+Eigen::Vector3d pointInWorld(const KeyframeGraph& graph, const Landmark& landmark, const RollingShutterCamera& camera) {
   const Node& host = graph.nodes[static_cast<std::size_t>(landmark.host)];
-  const Eigen::Isometry3d T_world_row = host.T_world_camera * geometry::expSe3(rowTime_s(landmark.pixel.y(), calibration) * host.velocity);
-  return T_world_row * pointInHost(landmark, calibration.camera);
+  const Eigen::Isometry3d T_world_row = host.T_world_camera * geometry::expSe3(camera.rowTime_s(landmark.pixel.y()) * host.velocity);
+  return T_world_row * pointInHost(landmark, camera.pinhole);
 }
 
-PoseSolution solveOne(const KeyframeGraph& graph, const TrackedFrame& frame, const SharedCalibration& calibration,
+PoseSolution solveOne(const KeyframeGraph& graph, const TrackedFrame& frame, const RollingShutterCamera& camera,
                       const Eigen::Isometry3d& T_world_frame_start, const geometry::Vector6d& velocity, double pixel_sigma_px) {
   std::vector<PointSighting> sightings;
   for (const Observation& o : frame.observations) {
     const Landmark& landmark = graph.landmarks[static_cast<std::size_t>(o.landmark)];
     const Eigen::Vector2d pixel = o.pixel.cast<double>();
-    sightings.push_back({pointInWorld(graph, landmark, calibration), pixel, static_cast<double>(o.depth_m) * calibration.depth_scale, pixel_sigma_px * (1 << o.level),
-                         rowTime_s(pixel.y(), calibration)});
+    sightings.push_back({pointInWorld(graph, landmark, camera), pixel, static_cast<double>(o.depth_m), pixel_sigma_px * (1 << o.level),
+                         camera.rowTime_s(pixel.y())});
   }
   PoseSolverConfig config;
   config.depth_weight = 0.1;
-  return solvePose(sightings, calibration.camera, T_world_frame_start, config, velocity);
+  return solvePose(sightings, camera.pinhole, T_world_frame_start, config, velocity);
 }
 
 }  // namespace
@@ -77,12 +72,12 @@ void setNodeVelocities(KeyframeGraph& graph, const std::vector<TrackedFrame>& fr
   }
 }
 
-std::vector<Eigen::Isometry3d> solveFramePoses(const KeyframeGraph& graph, const std::vector<TrackedFrame>& frames, const SharedCalibration& calibration,
+std::vector<Eigen::Isometry3d> solveFramePoses(const KeyframeGraph& graph, const std::vector<TrackedFrame>& frames, const RollingShutterCamera& camera,
                                                const std::vector<geometry::Vector6d>& velocities, double pixel_sigma_px, int threads) {
   std::vector<Eigen::Isometry3d> poses = posesFromReferences(graph, frames);
   base::parallelFor(static_cast<int>(frames.size()), threads, [&](int index) {
     const auto i = static_cast<std::size_t>(index);
-    const PoseSolution solution = solveOne(graph, frames[i], calibration, poses[i], velocities[i], pixel_sigma_px);
+    const PoseSolution solution = solveOne(graph, frames[i], camera, poses[i], velocities[i], pixel_sigma_px);
     if (solution.status == PoseStatus::kConverged && solution.inliers >= 15) {
       poses[i] = solution.T_world_camera;
     }

@@ -3,10 +3,17 @@
 
 #include <vector>
 
-#include "mapping/graph/bundle_adjustment.h"
 #include "mapping/graph/front_end.h"
 
 namespace oikos::mapping {
+
+struct RollingShutterCamera {
+  camera::PinholeCamera pinhole;
+  double readout_s = 0.0;  ///< from the first to the last image row
+
+  /// Exposure of an image row after the stamp.
+  [[nodiscard]] double rowTime_s(double row_px) const { return (row_px / pinhole.height - 0.5) * readout_s; }
+};
 
 /// A frame's pose as it hangs on its reference node now.
 [[nodiscard]] std::vector<Eigen::Isometry3d> posesFromReferences(const KeyframeGraph& graph, const std::vector<TrackedFrame>& frames);
@@ -20,7 +27,7 @@ void setNodeVelocities(KeyframeGraph& graph, const std::vector<TrackedFrame>& fr
 
 /// The pose of every frame from its own sightings of the refined landmarks; where these are too few, from its reference node.
 [[nodiscard]] std::vector<Eigen::Isometry3d> solveFramePoses(const KeyframeGraph& graph, const std::vector<TrackedFrame>& frames,
-                                                             const SharedCalibration& calibration, const std::vector<geometry::Vector6d>& velocities,
+                                                             const RollingShutterCamera& camera, const std::vector<geometry::Vector6d>& velocities,
                                                              double pixel_sigma_px, int threads);
 
 }  // namespace oikos::mapping

@@ -217,12 +217,7 @@ void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
   added.observations = seen.observations;
   for (const Revisit& revisit : revisits) {
     addEdge(revisit.node, node, EdgeKind::kLoop, revisit.seen, revisit.seen.pose.T_world_camera);
-    std::set<int> known;
-    for (const Observation& o : added.observations) {
-      known.insert(o.landmark);
-    }
-    std::copy_if(revisit.seen.observations.begin(), revisit.seen.observations.end(), std::back_inserter(added.observations),
-                 [&](const Observation& o) { return !known.contains(o.landmark); });
+    result_.graph.edges.back().observations = revisit.seen.observations;
   }
   if (reuse) {
     ++result_.reused_keyframes;

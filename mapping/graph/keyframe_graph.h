@@ -32,6 +32,7 @@ struct Edge {
   geometry::Matrix6d information = geometry::Matrix6d::Identity();  ///< of the right perturbation of T_from_to (1/m^2, 1/rad^2)
   int inliers = 0;
   double rms_px = 0.0;
+  std::vector<Observation> observations;  ///< of a loop: old landmarks seen again in `to`; the node gets them once the loop is accepted
 };
 
 /// What the front end hands to the optimisation. Node ids are positions in `nodes`, in the order of the drive.

@@ -155,4 +155,22 @@ FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate
   return result;
 }
 
+std::vector<Observation> findLandmarks(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera,
+                                       double gate_px, const FollowerConfig& config) {
+  const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
+  std::vector<Observation> observations;
+  for (const Candidate& candidate : candidates) {
+    auto query = predict(candidate, *view.camera, T_camera_world, config);
+    if (!query) {
+      continue;
+    }
+    query->coarsest_level = 1;
+    const PatchMatch match = alignPatch(*candidate.host, *view.pyramid, *query, config.patch);
+    if (match.found && match.level == 0 && (match.target_px - query->start_px).norm() < gate_px && view.camera->contains(match.target_px, 1.0)) {
+      observations.push_back({candidate.landmark, match.target_px.cast<float>(), depthAt(view, match.target_px), 0});
+    }
+  }
+  return observations;
+}
+
 }  // namespace oikos::mapping

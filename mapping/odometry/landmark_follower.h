@@ -53,4 +53,9 @@ struct [[nodiscard]] FollowResult {
 FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera_predicted,
                              const FollowerConfig& config);
 
+/// Looks for landmarks from a pose that is known to a few pixels, without solving for it: those whose patch is found within `gate_px`
+/// of where it should be.
+[[nodiscard]] std::vector<Observation> findLandmarks(const TargetView& view, const std::vector<Candidate>& candidates,
+                                                     const Eigen::Isometry3d& T_world_camera, double gate_px, const FollowerConfig& config);
+
 }  // namespace oikos::mapping

@@ -117,7 +117,7 @@ TEST(Ply, EachDefectIsNamedWithItsPlace) {
   EXPECT_EQ(failure("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"),
             "cloud.ply:5: element 'vertex' lacks x, y or z");
   EXPECT_EQ(failure(header + "end_header\n1 2\n"), "cloud.ply:8: the file ends here, more was announced");
-  EXPECT_EQ(failure(header + "end_header\n1 two 3\n"), "cloud.ply:8: 'two 3' is not a number");
+  EXPECT_EQ(failure(header + "end_header\n1 two 3\n"), "cloud.ply:8: two 3 is not a number");
   EXPECT_EQ(failure(header + "end_header\n1 nan 3\n"), "cloud.ply:8: vertex 0 is not finite");
   EXPECT_EQ(failure(header + "element face 1\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n4 0 0 0 0\n"),
             "cloud.ply:11: face 0 has 4 corners, only triangles are read");

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mapping/graph/keyframe_graph.h"
+
+namespace oikos::mapping {
+
+struct LoopConsistencyConfig {
+  double drift_m_per_edge = 0.01;       ///< how far the odometry may stray on one edge, standard deviation
+  double drift_rad_per_edge = 0.006;
+  double loop_sigma_m = 0.02;           ///< of a loop's own measurement
+  double loop_sigma_rad = 0.01;
+  double gate_sigmas = 4.0;             ///< a cycle that fails to close by more is inconsistent
+};
+
+/// Which loop edges to believe: the largest set found of which every two close a cycle with the odometry between them (Mangelson
+/// et al., "Pairwise Consistent Measurement Set Maximization", ICRA 2018), by a greedy search from every edge. Loops between
+/// the same two sub-maps are judged among themselves. A lone loop is believed only if the odometry itself agrees with it, or
+/// if it is all that joins two sub-maps and has `min_lone_inliers` inliers. One entry an edge of the graph; odometry: true.
+[[nodiscard]] std::vector<char> consistentEdges(const KeyframeGraph& graph, const LoopConsistencyConfig& config, int min_lone_inliers = 40);
+
+}  // namespace oikos::mapping

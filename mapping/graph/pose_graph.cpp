@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/graph/pose_graph.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "mapping/graph/pose_block.h"
+#include "mapping/graph/projection_cost.h"
+
+namespace oikos::mapping {
+
+namespace {
+
+/// Residual with the rotation's logarithm and the translation in the frame of `to`'s measurement; Jacobians to first order of
+/// the residual, which is small wherever the kernel lets it count.
+class RelativePoseCost final : public ceres::SizedCostFunction<6, 7, 7> {
+ public:
+  RelativePoseCost(const Eigen::Isometry3d& T_from_to, const geometry::Matrix6d& sqrt_information)
+      : T_to_from_(T_from_to.inverse()), sqrt_information_(sqrt_information) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::Isometry3d T_world_from = fromBlock(parameters[0]);
+    const Eigen::Isometry3d T_world_to = fromBlock(parameters[1]);
+    const Eigen::Isometry3d error = T_to_from_ * T_world_from.inverse() * T_world_to;
+    const geometry::Vector6d xi = geometry::logSe3(error);
+    Eigen::Map<geometry::Vector6d> r(residuals);
+    r = sqrt_information_ * xi;
+    if (jacobians == nullptr) {
+      return true;
+    }
+    // error * exp(b): d xi = Jr^-1 b, Jr^-1 about I + ad(xi) / 2.
+    geometry::Matrix6d Jr_inverse = geometry::Matrix6d::Identity();
+    Jr_inverse.topLeftCorner<3, 3>() += 0.5 * geometry::skew(xi.tail<3>());
+    Jr_inverse.bottomRightCorner<3, 3>() += 0.5 * geometry::skew(xi.tail<3>());
+    Jr_inverse.topRightCorner<3, 3>() += 0.5 * geometry::skew(xi.head<3>());
+    const geometry::Matrix6d by_to = sqrt_information_ * Jr_inverse;
+    if (jacobians[0] != nullptr) {
+      const geometry::Matrix6d by_from = -by_to * geometry::adjoint(T_world_to.inverse() * T_world_from);
+      store(jacobians[0], by_from);
+    }
+    if (jacobians[1] != nullptr) {
+      store(jacobians[1], by_to);
+    }
+    return true;
+  }
+
+ private:
+  static Eigen::Isometry3d fromBlock(const double* block) {
+    PoseBlock copy;
+    std::copy(block, block + 7, copy.begin());
+    return fromPoseBlock(copy);
+  }
+  static void store(double* jacobian, const geometry::Matrix6d& J) {
+    Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> out(jacobian);
+    out << J, geometry::Vector6d::Zero();
+  }
+  Eigen::Isometry3d T_to_from_;
+  geometry::Matrix6d sqrt_information_;
+};
+
+/// Upper factor U with U^T U = information, scaled and with its eigenvalues held in bounds.
+geometry::Matrix6d squareRoot(const geometry::Matrix6d& information, const PoseGraphConfig& config) {
+  const geometry::Matrix6d symmetric = 0.5 * config.information_scale * (information + information.transpose());
+  const Eigen::SelfAdjointEigenSolver<geometry::Matrix6d> eigen(symmetric);
+  const geometry::Vector6d values = eigen.eigenvalues().cwiseMax(1.0).cwiseMin(config.max_information);
+  return values.cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+geometry::Matrix6d priorSquareRoot(const PoseGraphConfig& config) {
+  geometry::Vector6d inverse_sigma;
+  inverse_sigma << Eigen::Vector3d::Constant(1.0 / config.odometry_sigma_m), Eigen::Vector3d::Constant(1.0 / config.odometry_sigma_rad);
+  return inverse_sigma.asDiagonal();
+}
+
+struct Link {
+  int from;
+  int to;
+  Eigen::Isometry3d T_from_to;
+};
+
+std::vector<Link> linksBetweenSubmaps(const KeyframeGraph& graph, const std::vector<char>& believed, const std::vector<MotionPrior>& priors) {
+  std::vector<Link> links;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    if (believed[e] != 0) {
+      links.push_back({graph.edges[e].from, graph.edges[e].to, graph.edges[e].T_from_to});
+    }
+  }
+  for (const MotionPrior& prior : priors) {
+    links.push_back({prior.from, prior.to, prior.T_from_to});
+  }
+  return links;
+}
+
+/// Moves all nodes of one sub-map by a rigid motion of its world and gives them another number.
+void moveSubmap(KeyframeGraph& graph, int submap, int into, const Eigen::Isometry3d& T_into_submap) {
+  for (Node& node : graph.nodes) {
+    if (node.submap == submap) {
+      node.submap = into;
+      node.T_world_camera = T_into_submap * node.T_world_camera;
+    }
+  }
+}
+
+}  // namespace
+
+int joinSubmaps(KeyframeGraph& graph, const std::vector<char>& believed, const std::vector<MotionPrior>& priors) {
+  const std::vector<Link> links = linksBetweenSubmaps(graph, believed, priors);
+  bool joined = true;
+  while (joined) {
+    joined = false;
+    for (const Link& link : links) {
+      const Node& from = graph.nodes[static_cast<std::size_t>(link.from)];
+      const Node& to = graph.nodes[static_cast<std::size_t>(link.to)];
+      if (from.submap == to.submap) {
+        continue;
+      }
+      const Eigen::Isometry3d T_from_to_world = from.T_world_camera * link.T_from_to * to.T_world_camera.inverse();
+      if (from.submap < to.submap) {
+        moveSubmap(graph, to.submap, from.submap, T_from_to_world);
+      } else {
+        moveSubmap(graph, from.submap, to.submap, T_from_to_world.inverse());
+      }
+      joined = true;
+    }
+  }
+  std::set<int> left;
+  for (const Node& node : graph.nodes) {
+    left.insert(node.submap);
+  }
+  return static_cast<int>(left.size());
+}
+
+PoseGraphResult optimisePoseGraph(KeyframeGraph& graph, const std::vector<char>& believed, const std::vector<MotionPrior>& priors,
+                                  const PoseGraphConfig& config) {
+  PoseGraphResult result;
+  result.loop_weight.assign(graph.edges.size(), 1.0);
+  std::vector<PoseBlock> poses;
+  for (const Node& node : graph.nodes) {
+    poses.push_back(toPoseBlock(node.T_world_camera));
+  }
+  RightPerturbedPose manifold;
+  ceres::CauchyLoss kernel(config.cauchy_sigmas);
+  ceres::Problem::Options problem_options;
+  problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(problem_options);
+  std::set<int> anchored;
+  for (std::size_t n = 0; n < poses.size(); ++n) {
+    problem.AddParameterBlock(poses[n].data(), 7, &manifold);
+    if (anchored.insert(graph.nodes[n].submap).second) {
+      problem.SetParameterBlockConstant(poses[n].data());
+    }
+  }
+  const auto add = [&](int from, int to, const Eigen::Isometry3d& T_from_to, const geometry::Matrix6d& root, ceres::LossFunction* loss) {
+    return problem.AddResidualBlock(new RelativePoseCost(T_from_to, root), loss, poses[static_cast<std::size_t>(from)].data(),
+                                    poses[static_cast<std::size_t>(to)].data());
+  };
+  std::map<std::size_t, ceres::ResidualBlockId> loops;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const Edge& edge = graph.edges[e];
+    if (believed[e] == 0) {
+      result.loop_weight[e] = 0.0;
+    } else {
+      const bool loop = edge.kind == EdgeKind::kLoop;
+      const auto id = add(edge.from, edge.to, edge.T_from_to, squareRoot(edge.information, config), loop ? &kernel : nullptr);
+      if (loop) {
+        loops[e] = id;
+      }
+    }
+  }
+  for (const MotionPrior& prior : priors) {
+    add(prior.from, prior.to, prior.T_from_to, priorSquareRoot(config), &kernel);
+  }
+  if (problem.NumResidualBlocks() == 0) {
+    return result;
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = config.max_iterations;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  result.usable = summary.IsSolutionUsable();
+  result.iterations = static_cast<int>(summary.iterations.size());
+  result.initial_cost = summary.initial_cost;
+  result.final_cost = summary.final_cost;
+  if (!result.usable) {
+    return result;
+  }
+  for (const auto& [e, id] : loops) {
+    double cost = 0.0;
+    problem.EvaluateResidualBlockAssumingParametersUnchanged(id, false, &cost, nullptr, nullptr);
+    const double sq = 2.0 * cost;
+    result.loop_weight[e] = 1.0 / (1.0 + sq / (config.cauchy_sigmas * config.cauchy_sigmas));
+  }
+  for (std::size_t n = 0; n < poses.size(); ++n) {
+    graph.nodes[n].T_world_camera = fromPoseBlock(poses[n]);
+  }
+  return result;
+}
+
+}  // namespace oikos::mapping
