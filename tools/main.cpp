@@ -4,6 +4,7 @@
 
 int main(int argc, char** argv) {
   oikos::tools::Program program;
+  oikos::tools::addInspectCommand(program.root());
   oikos::tools::addEvaluateCommand(program.root());
   return static_cast<int>(program.run(argc, argv));
 }
