@@ -156,7 +156,7 @@ ExitCode evaluateTrajectoryFiles(TrajectoryOptions options, const Session& sessi
 }
 
 void addTrajectory(CLI::App& evaluate) {
-  CLI::App& command = addCommand(evaluate, {"trajectory", "absolute and relative errors of a trajectory",
+  CLI::App& command = addCommand(evaluate, {"trajectory", "Measures the absolute and relative errors of a trajectory.",
                                             "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
                                             "  oikos evaluate trajectory estimate.txt truth.txt --json\n"
                                             "  oikos evaluate trajectory monocular.txt truth.txt --scale\n"
@@ -225,8 +225,8 @@ ExitCode evaluateMapFiles(MapOptions options, const Session& session) {
   return answered ? ExitCode::kDone : ExitCode::kNoAnswer;
 }
 
-void addMap(CLI::App& evaluate) {
-  CLI::App& command = addCommand(evaluate, {"map", "accuracy and completeness of a cloud against a reference in the same frame",
+void addMapEvaluation(CLI::App& evaluate) {
+  CLI::App& command = addCommand(evaluate, {"map", "Measures accuracy and completeness of a cloud against a reference in the same frame.",
                                             "  oikos evaluate map home/map/cloud.ply scan.ply\n"
                                             "  oikos evaluate map home/map/mesh.ply scan.ply --fine 0.01 --coarse 0.03 --json"});
   const auto options = std::make_shared<MapOptions>();
@@ -240,11 +240,11 @@ void addMap(CLI::App& evaluate) {
 }  // namespace
 
 void addEvaluateCommand(CLI::App& root) {
-  CLI::App& evaluate = addCommand(root, {"evaluate", "measure results against truth with the field's metrics",
+  CLI::App& evaluate = addCommand(root, {"evaluate", "Measures results against truth with the field's metrics.",
                                          "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
                                          "  oikos evaluate map home/map/cloud.ply scan.ply"});
   addTrajectory(evaluate);
-  addMap(evaluate);
+  addMapEvaluation(evaluate);
 }
 
 }  // namespace oikos::tools

@@ -59,7 +59,7 @@ ExitCode inspectRecording(const InspectOptions& options, const Session& session)
 }  // namespace
 
 void addInspectCommand(CLI::App& root) {
-  CLI::App& command = addCommand(root, {"inspect", "say whether a recorded drive is good enough to be mapped", kExamples, true});
+  CLI::App& command = addCommand(root, {"inspect", "Says whether a recorded drive is good enough to be mapped.", kExamples, true});
   const auto options = std::make_shared<InspectOptions>();
   command.add_option("RECORDING", options->recording, "folder of the drive: TUM RGB-D or 7-Scenes")->required();
   command.add_option("--camera", options->camera,

@@ -144,7 +144,7 @@ Summary buildHome(const MapOptions& options, const Session& session) {
 }  // namespace
 
 void addMapCommand(CLI::App& root) {
-  CLI::App& command = addCommand(root, {"map", "build the metric map of a home from a recorded drive", kExamples, true});
+  CLI::App& command = addCommand(root, {"map", "Builds the metric map of a home from a recorded drive.", kExamples, true});
   const auto options = std::make_shared<MapOptions>();
   declareOptions(command, *options);
   setAction(command, [options](const Session& session) {

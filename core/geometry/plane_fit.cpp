@@ -32,7 +32,9 @@ PlaneFitResult PlaneFit::solve() const {
     return result;
   }
   result.plane.normal = solver.eigenvectors().col(0);
-  result.plane.offset_m = result.plane.normal.dot(anchor_ + mean);
+  result.centroid = anchor_ + mean;
+  result.plane.offset_m = result.plane.normal.dot(result.centroid);
+  result.width_m = std::sqrt(spread[1]);
   result.rms_m = std::sqrt(std::max(0.0, spread[0]));
   result.status = PlaneFitStatus::kFitted;
   return result;

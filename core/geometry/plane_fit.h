@@ -25,6 +25,8 @@ struct [[nodiscard]] PlaneFitResult {
   Plane plane;  ///< the normal's sign is arbitrary
   int points = 0;
   double rms_m = 0.0;  ///< of the distances
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  double width_m = 0.0;  ///< standard deviation along the plane's narrower direction: what holds the normal
 };
 
 /// Least squares over orthogonal distances: the plane through the centroid across the direction of least spread.

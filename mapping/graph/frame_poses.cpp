@@ -48,7 +48,7 @@ std::vector<geometry::Vector6d> velocitiesOf(const std::vector<TrackedFrame>& fr
   std::vector<geometry::Vector6d> velocities(frames.size(), geometry::Vector6d::Zero());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto usable = [&](std::size_t a, std::size_t b) {
-      return frames[a].status != FrameStatus::kLost && frames[b].status != FrameStatus::kLost && frames[b].status != FrameStatus::kStart &&
+      return frames[a].status != TrackingStatus::kLost && frames[b].status != TrackingStatus::kLost && frames[b].status != TrackingStatus::kStart &&
              secondsBetween(frames[a], frames[b]) < max_gap_s;
     };
     const std::size_t before = i > 0 && usable(i - 1, i) ? i - 1 : i;

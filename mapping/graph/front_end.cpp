@@ -40,22 +40,22 @@ void FrontEnd::add(const camera::RgbdFrame& frame) {
     return;
   }
   FollowResult seen = follow(current, predict(current), active_);
-  FrameStatus status = FrameStatus::kTracked;
+  TrackingStatus status = TrackingStatus::kTracked;
   if (!seen.tracked) {
-    status = FrameStatus::kLost;
+    status = TrackingStatus::kLost;
     if (auto recovered = recover(current)) {
       seen = std::move(*recovered);
-      status = FrameStatus::kRelocalised;
+      status = TrackingStatus::kRelocalised;
     }
   }
-  if (status == FrameStatus::kLost && ++lost_in_a_row_ > config_.max_lost_frames) {
+  if (status == TrackingStatus::kLost && ++lost_in_a_row_ > config_.max_lost_frames) {
     startSubmap(current);
     return;
   }
-  if (status != FrameStatus::kLost) {
+  if (status != TrackingStatus::kLost) {
     lost_in_a_row_ = 0;
     T_previous_current_ = T_world_camera_.inverse() * seen.pose.T_world_camera;
-    if (status == FrameStatus::kRelocalised) {
+    if (status == TrackingStatus::kRelocalised) {
       T_previous_current_.setIdentity();
     }
     T_world_camera_ = seen.pose.T_world_camera;
@@ -85,7 +85,7 @@ void FrontEnd::startSubmap(const Current& current) {
   places_.add(node, features_.back());
   FollowResult seen;
   seen.pose.T_world_camera = T_world_camera_;
-  record(current, seen, FrameStatus::kStart);
+  record(current, seen, TrackingStatus::kStart);
   previous_ = current.pyramid;
 }
 
@@ -138,14 +138,14 @@ std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const 
   const std::vector<FeatureMatch> matches = matchFeatures(features_[old], *current.features);
   const std::uint64_t seed = seed_ ^ (static_cast<std::uint64_t>(current.frame.index) << 32U) ^ static_cast<std::uint64_t>(candidate.place);
   const RelativeMotion motion = estimateMotion(features_[old], *current.features, matches, camera_, config_.motion, seed);
-  LoopAttempt attempt{candidate.place, current.frame.index, candidate.votes, static_cast<int>(motion.inlier.size()), motion.rms_px, LoopVerdict::kTooFewMatches};
+  LoopAttempt attempt{candidate.place, current.frame.index, candidate.votes, static_cast<int>(motion.inlier.size()), motion.rms_px, LoopCheck::kTooFewMatches};
   std::optional<Revisit> revisit;
   if (motion.status == MotionStatus::kConverged) {
     const std::vector<int> landmarks = landmarksOf(neighbourhood(candidate.place, 1));
     FollowResult seen = follow(current, result_.graph.nodes[old].T_world_camera * motion.T_a_b, landmarks);
-    attempt.verdict = LoopVerdict::kGeometryDisagrees;
+    attempt.verdict = LoopCheck::kGeometryDisagrees;
     if (seen.tracked) {
-      attempt.verdict = LoopVerdict::kAccepted;
+      attempt.verdict = LoopCheck::kAccepted;
       attempt.inliers = seen.pose.inliers;
       attempt.rms_px = seen.pose.rms_px;
       const std::vector<int> own = landmarksOf({candidate.place});
@@ -155,7 +155,7 @@ std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const 
       revisit = Revisit{candidate.place, std::move(seen), static_cast<double>(again) / std::max<double>(1.0, static_cast<double>(own.size()))};
     }
   } else if (motion.status != MotionStatus::kTooFewMatches) {
-    attempt.verdict = LoopVerdict::kGeometryDisagrees;
+    attempt.verdict = LoopCheck::kGeometryDisagrees;
   }
   result_.loop_attempts.push_back(attempt);
   return revisit;
@@ -320,14 +320,14 @@ std::vector<int> FrontEnd::landmarksOf(const std::vector<int>& nodes) const {
   return landmarks;
 }
 
-void FrontEnd::record(const Current& current, const FollowResult& seen, FrameStatus status) {
+void FrontEnd::record(const Current& current, const FollowResult& seen, TrackingStatus status) {
   TrackedFrame tracked;
   tracked.frame = current.frame.index;
   tracked.stamp_ns = current.frame.stamp_ns;
   tracked.status = status;
   tracked.reference = reference_;
   tracked.T_reference_frame = result_.graph.nodes[static_cast<std::size_t>(reference_)].T_world_camera.inverse() * T_world_camera_;
-  if (status != FrameStatus::kLost) {
+  if (status != TrackingStatus::kLost) {
     tracked.observations = seen.observations;
     tracked.rms_px = seen.pose.rms_px;
   } else {

@@ -33,20 +33,20 @@ struct FrontEndConfig {
   int max_lost_frames = 5;            ///< lost for longer: a new sub-map is begun
 };
 
-enum class FrameStatus { kTracked, kRelocalised, kLost, kStart };
+enum class TrackingStatus { kTracked, kRelocalised, kLost, kStart };
 
 /// One frame of the drive as the front end saw it. Its pose hangs on a node, so that it moves along when the graph is optimised.
 struct TrackedFrame {
   int frame = -1;
   std::int64_t stamp_ns = 0;
-  FrameStatus status = FrameStatus::kLost;
+  TrackingStatus status = TrackingStatus::kLost;
   int reference = -1;  ///< node
   Eigen::Isometry3d T_reference_frame = Eigen::Isometry3d::Identity();
   std::vector<Observation> observations;
   double rms_px = 0.0;
 };
 
-enum class LoopVerdict { kTooFewMatches, kGeometryDisagrees, kAccepted };
+enum class LoopCheck { kTooFewMatches, kGeometryDisagrees, kAccepted };
 
 struct LoopAttempt {
   int from = -1;   ///< the old node
@@ -54,7 +54,7 @@ struct LoopAttempt {
   int votes = 0;
   int inliers = 0;
   double rms_px = 0.0;
-  LoopVerdict verdict = LoopVerdict::kTooFewMatches;
+  LoopCheck verdict = LoopCheck::kTooFewMatches;
 };
 
 struct FrontEndResult {
@@ -88,7 +88,7 @@ class FrontEnd {
   void addKeyframe(Current& current, FollowResult& seen);
   struct Revisit;
   [[nodiscard]] std::optional<Revisit> verify(const Current& current, const PlaceIndex::Candidate& candidate);
-  void record(const Current& current, const FollowResult& seen, FrameStatus status);
+  void record(const Current& current, const FollowResult& seen, TrackingStatus status);
   int addNode(const Current& current, const Eigen::Isometry3d& T_world_camera, bool keyframe);
   void addEdge(int from, int to, EdgeKind kind, const FollowResult& seen, const Eigen::Isometry3d& T_world_to);
   void host(const Current& current, int node, const std::vector<Observation>& seen);

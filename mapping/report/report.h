@@ -84,13 +84,13 @@ struct OptimisationFacts {
   std::vector<RefinedValue> refined;
 };
 
-enum class FloorStatus { kFound, kNotInSight };
-constexpr auto enumTable(FloorStatus) {
-  return std::to_array<base::EnumName<FloorStatus>>({{FloorStatus::kFound, "found"}, {FloorStatus::kNotInSight, "not-in-sight"}});
+enum class FloorSighting { kFound, kNotInSight };
+constexpr auto enumTable(FloorSighting) {
+  return std::to_array<base::EnumName<FloorSighting>>({{FloorSighting::kFound, "found"}, {FloorSighting::kNotInSight, "not-in-sight"}});
 }
 
 struct FloorFacts {
-  FloorStatus status = FloorStatus::kNotInSight;
+  FloorSighting status = FloorSighting::kNotInSight;
   double camera_height_m = 0.0;  ///< of the first frame's camera over the floor
 };
 

@@ -46,7 +46,7 @@ std::string tile(const std::string& value, const std::string& meaning) {
 }
 
 std::string tiles(const MapReport& report, const ReportFigures& figures) {
-  const bool floor_found = report.floor.status == FloorStatus::kFound;
+  const bool floor_found = report.floor.status == FloorSighting::kFound;
   return "<div class=\"figures\">\n" + tile(shareText(figures.frames - figures.lost, figures.frames), "of the frames have a place") +
          tile(lengthText(figures.path_m), "of path in " + numberText(figures.drive_s, 0) + " s") +
          tile(countText(figures.loops_accepted), "loops closed") +
@@ -122,7 +122,7 @@ std::string trackingSection(const MapReport& report, const ReportFigures& figure
 std::string volumeSection(const MapReport& report) {
   const VolumeFacts& volume = report.volume;
   const Eigen::Vector3d size_m = volume.box_max_m - volume.box_min_m;
-  const bool floor_found = report.floor.status == FloorStatus::kFound;
+  const bool floor_found = report.floor.status == FloorSighting::kFound;
   return section("Map", factTable({{"resolution", lengthText(volume.resolution_m)},
                                    {"voxels occupied", countText(volume.voxels_occupied)},
                                    {"voxels free", countText(volume.voxels_free)},

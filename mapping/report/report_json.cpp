@@ -96,7 +96,7 @@ Json optimisationJson(const OptimisationFacts& optimisation) {
 
 Json floorJson(const FloorFacts& floor) {
   Json json = {{"status", base::toString(floor.status)}};
-  json["camera_height_m"] = floor.status == FloorStatus::kFound ? Json(floor.camera_height_m) : Json(nullptr);
+  json["camera_height_m"] = floor.status == FloorSighting::kFound ? Json(floor.camera_height_m) : Json(nullptr);
   return json;
 }
 

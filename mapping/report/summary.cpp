@@ -115,7 +115,7 @@ void judgeInput(const MapReport& report, const ReportFigures& figures, Findings&
                         "Matches miss by " + numberText(figures.median_residual_px, 1) + " px in the middle frame.",
                         "Check the camera's calibration: under one pixel is normal."});
   }
-  if (report.floor.status == FloorStatus::kNotInSight) {
+  if (report.floor.status == FloorSighting::kNotInSight) {
     findings.push_back({MapVerdict::kUsableWithCare,
                         "The floor was never in sight: heights count from the first camera, and the 2D grid is unknown.",
                         "Tilt the camera so that some floor shows in the picture."});
@@ -130,7 +130,7 @@ std::string storyOf(const MapReport& report, const ReportFigures& figures) {
     story +=
         report.trajectory_before_loops.empty() ? "." : ", which moved the path by up to " + lengthText(figures.largest_correction_m) + ".";
   }
-  if (report.floor.status == FloorStatus::kFound) {
+  if (report.floor.status == FloorSighting::kFound) {
     story += " The floor was found " + lengthText(report.floor.camera_height_m) + " below the camera; " +
              numberText(figures.free_area_m2, 1) + " m² of it are known to be free.";
   }

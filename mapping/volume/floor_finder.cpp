@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <random>
@@ -21,6 +22,8 @@ constexpr int kMaxPlanes = 16;
 constexpr double kFacingCosine = 0.906;  ///< 25°: a single element's normal is rough
 constexpr double kLevelCosine = 0.985;   ///< 10°: a floor's is not
 constexpr double kWellBelow_m = 0.15;
+constexpr double kDepthBias_m = 0.02;      ///< of one side of a floor against the other
+constexpr double kUpDeviation_rad = 0.02;  ///< of the direction that all surface votes for
 
 /// Normal at a pixel from four readings around it, towards the camera; nothing at edges and holes.
 std::optional<Eigen::Vector3f> findNormal(const cv::Mat& depth_m, const camera::PinholeCamera& camera, const Eigen::Vector2i& pixel,
@@ -45,7 +48,7 @@ struct Candidate {
   geometry::Plane plane;
   std::vector<std::size_t> inliers;
   double area_m2 = 0.0;
-  double rms_m = 0.0;
+  geometry::PlaneFitResult fit;  ///< to the inliers
 };
 
 class PlaneSearch {
@@ -116,7 +119,7 @@ class PlaneSearch {
   }
 
   [[nodiscard]] Candidate refine(const geometry::Plane& start) const {
-    Candidate candidate{start, {}, 0.0, 0.0};
+    Candidate candidate{start, {}, 0.0, {}};
     for (int iteration = 0; iteration < 4; ++iteration) {
       candidate.inliers.clear();
       geometry::PlaneFit fit;
@@ -131,7 +134,7 @@ class PlaneSearch {
         break;
       }
       candidate.plane = *plane;
-      candidate.rms_m = fit.solve().rms_m;
+      candidate.fit = fit.solve();
     }
     candidate.area_m2 = areaM2(candidate);
     return candidate;
@@ -160,21 +163,48 @@ class PlaneSearch {
   int small_planes_ = 0;
 };
 
-/// Lowest first; the first that has the camera high enough above it and next to nothing below it.
-std::optional<Candidate> chooseFloor(std::vector<Candidate> planes, const std::vector<SurfaceElement>& surface,
+bool isNothingBelow(const Candidate& plane, const std::vector<SurfaceElement>& surface, const FloorConfig& config) {
+  const auto below = std::count_if(surface.begin(), surface.end(), [&](const SurfaceElement& element) {
+    return plane.plane.distanceM(element.point_world) < -kWellBelow_m;
+  });
+  return static_cast<double>(below) <= config.max_share_below * static_cast<double>(plane.inliers.size());
+}
+
+/// The planes' heights are compared below the camera. Of planes that are the lowest within the depth's errors, the largest.
+std::optional<Candidate> chooseFloor(const std::vector<Candidate>& planes, const std::vector<SurfaceElement>& surface,
                                      const Eigen::Vector3d& camera_world, const FloorConfig& config) {
-  std::sort(planes.begin(), planes.end(),
-            [&](const Candidate& a, const Candidate& b) { return a.plane.distanceM(camera_world) > b.plane.distanceM(camera_world); });
-  for (const Candidate& plane : planes) {
-    const auto below = std::count_if(surface.begin(), surface.end(), [&](const SurfaceElement& element) {
-      return plane.plane.distanceM(element.point_world) < -kWellBelow_m;
-    });
-    const bool is_lowest = static_cast<double>(below) <= config.max_share_below * static_cast<double>(plane.inliers.size());
-    if (is_lowest && plane.plane.distanceM(camera_world) >= config.min_camera_height_m) {
-      return plane;
-    }
+  std::vector<Candidate> possible;
+  std::copy_if(planes.begin(), planes.end(), std::back_inserter(possible), [&](const Candidate& plane) {
+    return plane.plane.distanceM(camera_world) >= config.min_camera_height_m && isNothingBelow(plane, surface, config);
+  });
+  if (possible.empty()) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  const auto depth_m = [&](const Candidate& plane) { return plane.plane.distanceM(camera_world); };
+  double lowest_m = 0.0;
+  for (const Candidate& plane : possible) {
+    lowest_m = std::max(lowest_m, depth_m(plane));
+  }
+  std::erase_if(possible, [&](const Candidate& plane) { return depth_m(plane) < lowest_m - kWellBelow_m; });
+  return *std::max_element(possible.begin(), possible.end(), [](const Candidate& a, const Candidate& b) { return a.area_m2 < b.area_m2; });
+}
+
+/// The floor as it is most likely: a small patch says where the floor is but, with the depth's bias, not which way it faces, and
+/// all the other surface does. The two directions are weighed by their variances; the plane goes through the patch's centroid.
+geometry::Plane levelled(const Candidate& floor, const Eigen::Vector3d& up_world) {
+  const double tilt_deviation_rad = kDepthBias_m / std::max(floor.fit.width_m, 1e-3);
+  const double weight_of_floor = 1.0 / (tilt_deviation_rad * tilt_deviation_rad);
+  const double weight_of_up = 1.0 / (kUpDeviation_rad * kUpDeviation_rad);
+  const Eigen::Vector3d normal = (weight_of_floor * floor.plane.normal + weight_of_up * up_world).normalized();
+  return {normal, normal.dot(floor.fit.centroid)};
+}
+
+double rmsM(const Candidate& floor, const geometry::Plane& plane, const std::vector<SurfaceElement>& surface) {
+  double sum_sq = 0.0;
+  for (const std::size_t i : floor.inliers) {
+    sum_sq += std::pow(plane.distanceM(surface[i].point_world), 2);
+  }
+  return std::sqrt(sum_sq / static_cast<double>(floor.inliers.size()));
 }
 
 /// z along the plane's normal and 0 in it, the origin below the camera, x along its optical axis.
@@ -261,11 +291,11 @@ FloorResult FloorFinder::find() const {
   geometry::Plane ground{up.up_world, up.up_world.dot(camera_world)};
   result.status = FloorStatus::kNoFloor;
   if (floor) {
-    ground = floor->plane;
+    ground = levelled(*floor, up.up_world);
     result.status = FloorStatus::kFound;
     result.inliers = static_cast<int>(floor->inliers.size());
     result.area_m2 = floor->area_m2;
-    result.rms_m = floor->rms_m;
+    result.rms_m = rmsM(*floor, ground, surface);
     result.camera_height_m = ground.distanceM(camera_world);
   }
   result.tilt_rad = std::acos(std::clamp(ground.normal.dot(image_up), -1.0, 1.0));

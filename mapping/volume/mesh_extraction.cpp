@@ -162,7 +162,8 @@ class TriangleFinder {
         continue;
       }
       for (const int* edge = octomap::triTable[*number]; *edge != -1; edge += 3) {
-        addTriangle({vertexOn(around, at, edge[0]), vertexOn(around, at, edge[1]), vertexOn(around, at, edge[2])}, triangles);
+        // The tables' order is clockwise seen from the corners outside.
+        addTriangle({vertexOn(around, at, edge[0]), vertexOn(around, at, edge[2]), vertexOn(around, at, edge[1])}, triangles);
       }
     }
   }
