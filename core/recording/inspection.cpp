@@ -18,7 +18,7 @@ namespace oikos::recording {
 
 namespace {
 
-constexpr double kBlurredSharpness = 0.75;  // of the recording's sharp frames
+constexpr double kSmeared = 0.45;  // FrameMeasure::blur: the knee between still and moving frames of hand-held Kinect recordings
 
 /// Everything that is kept of one frame.
 struct Look {
@@ -126,22 +126,16 @@ MotionReport reportMotion(const std::vector<double>& rates_rad_s) {
 }
 
 std::vector<BlurredFrame> findBlurred(const std::vector<Look>& looks, const std::vector<double>& rates_rad_s) {
-  std::vector<double> sharpness;
-  for (const Look& look : looks) {
-    if (look.is_readable) {
-      sharpness.push_back(look.measure.sharpness);
-    }
-  }
-  const double sharp = quantile(sharpness, 0.9);
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::vector<BlurredFrame> blurred;
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    if (!looks[i].is_readable || looks[i].measure.sharpness >= kBlurredSharpness * sharp) {
+    const double blur = looks[i].measure.blur;
+    if (!looks[i].is_readable || blur <= kSmeared) {
       continue;
     }
-    std::string reason =
-        std::to_string(static_cast<int>(100.0 * looks[i].measure.sharpness / sharp)) + " % of the sharpness of sharp frames";
+    std::string reason = std::to_string(std::lround(100.0 * blur)) + " % of the fine detail is smeared (sharp pictures: about 30 %)";
     if (rates_rad_s[i] >= 0.0) {
-      reason += ", image moving at " + std::to_string(static_cast<int>(rates_rad_s[i] * 180.0 / std::numbers::pi)) + " deg/s";
+      reason.append(", the image moves at ").append(std::to_string(std::lround(rates_rad_s[i] * kDegrees))).append(" deg/s");
     }
     blurred.push_back({looks[i].index, reason});
   }
