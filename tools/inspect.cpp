@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/config.h"
-#include "core/recording/inspection.h"
+#include "core/recording/inspect/inspection.h"
 #include "core/recording/recording.h"
 #include "tools/command.h"
 
