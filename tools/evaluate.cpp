@@ -239,7 +239,7 @@ void addMapEvaluation(CLI::App& evaluate) {
 
 }  // namespace
 
-void addEvaluate(CLI::App& root) {
+void addEvaluateCommand(CLI::App& root) {
   CLI::App& evaluate = addCommand(root, {"evaluate", "Measures results against truth with the field's metrics.",
                                          "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
                                          "  oikos evaluate map home/map/cloud.ply scan.ply"});

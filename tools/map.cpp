@@ -143,8 +143,8 @@ Summary buildHome(const MapOptions& options, const Session& session) {
 
 }  // namespace
 
-void addMap(CLI::App& root) {
-  CLI::App& command = addCommand(root, {"map", "Builds the metric map of a home from a recorded drive.", kExamples});
+void addMapCommand(CLI::App& root) {
+  CLI::App& command = addCommand(root, {"map", "Builds the metric map of a home from a recorded drive.", kExamples, true});
   const auto options = std::make_shared<MapOptions>();
   declareOptions(command, *options);
   setAction(command, [options](const Session& session) {

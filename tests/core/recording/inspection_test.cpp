@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/recording/inspection.h"
+#include "core/recording/inspect/inspection.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "core/base/read_file.h"
 #include "core/recording/frame_stream.h"
-#include "core/recording/inspection.h"
+#include "core/recording/inspect/inspection.h"
 #include "core/recording/recording.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/recording/inspection.h"
+#include "core/recording/inspect/inspection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
+#include "core/base/config_rules.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/recording/inspect/edge_alignment.h"
@@ -183,20 +184,15 @@ void countFrames(const std::vector<Look>& looks, Inspection& inspection) {
 }  // namespace
 
 std::vector<std::string> InspectionConfig::validate() const {
-  std::vector<std::string> problems;
-  const auto require = [&problems](bool holds, const char* key, const char* rule) {
-    if (!holds) {
-      problems.push_back(std::string("inspection.").append(key).append(": must be ").append(rule));
-    }
-  };
-  require(max_frames >= 2, "max_frames", ">= 2");
-  require(geometry_frames >= 1, "geometry_frames", ">= 1");
-  require(threads >= 1, "threads", ">= 1");
-  require(max_blurred_share >= 0.0 && max_blurred_share <= 1.0, "max_blurred_share", "from 0 to 1");
-  require(max_turn_rate_deg_s > 0.0, "max_turn_rate_deg_s", "> 0");
-  require(min_valid_depth_share >= 0.0 && min_valid_depth_share <= 1.0, "min_valid_depth_share", "from 0 to 1");
-  require(max_edge_shift_px > 0.0, "max_edge_shift_px", "> 0");
-  return problems;
+  return base::ConfigRules()
+      .atLeast("max_frames", max_frames, 2)
+      .atLeast("geometry_frames", geometry_frames, 1)
+      .atLeast("threads", threads, 1)
+      .between("max_blurred_share", max_blurred_share, 0.0, 1.0)
+      .greater("max_turn_rate_deg_s", max_turn_rate_deg_s, 0.0)
+      .between("min_valid_depth_share", min_valid_depth_share, 0.0, 1.0)
+      .greater("max_edge_shift_px", max_edge_shift_px, 0.0)
+      .messages();
 }
 
 Inspection inspect(const Recording& recording, const InspectionConfig& config) {

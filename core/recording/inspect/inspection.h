@@ -18,7 +18,17 @@ struct InspectionConfig {
   double max_turn_rate_deg_s = 60.0;   ///< at the 95th percentile
   double min_valid_depth_share = 0.5;  ///< of the pixels, mean over frames
   double max_edge_shift_px = 2.0;      ///< of depth edges against colour edges
-  std::vector<std::string> validate() const;
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("max_frames", max_frames);
+    visitor("geometry_frames", geometry_frames);
+    visitor("max_blurred_share", max_blurred_share);
+    visitor("max_turn_rate_deg_s", max_turn_rate_deg_s);
+    visitor("min_valid_depth_share", min_valid_depth_share);
+    visitor("max_edge_shift_px", max_edge_shift_px);
+  }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 struct RateReport {
