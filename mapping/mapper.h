@@ -2,48 +2,34 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/base/config_rules.h"
-#include "core/base/enum_table.h"
 #include "core/base/progress.h"
 #include "core/recording/recording.h"
+#include "mapping/graph/back_end.h"
+#include "mapping/graph/front_end.h"
+#include "mapping/volume/map_builder.h"
 
 namespace oikos::mapping {
 
-enum class FeatureKind { kSift, kOrb };
-constexpr auto enumTable(FeatureKind /*unused*/) {
-  return std::to_array<base::EnumName<FeatureKind>>({{FeatureKind::kSift, "sift"}, {FeatureKind::kOrb, "orb"}});
-}
-
-struct VolumeConfig {
-  double resolution_m = 0.05;  ///< edge of a voxel
-  bool every_frame = false;    ///< integrate every frame, not the keyframes only
-
-  template <class Visitor>
-  void visit(Visitor&& visitor) {
-    visitor("resolution_m", resolution_m);
-    visitor("every_frame", every_frame);
-  }
-  [[nodiscard]] std::vector<std::string> validate() const {
-    return base::ConfigRules().between("resolution_m", resolution_m, 0.01, 1.0).messages();
-  }
-};
-
 struct MapConfig {
-  FeatureKind features = FeatureKind::kSift;  ///< for keyframes, loops and relocalisation
+  FrontEndConfig front_end;
+  BackEndConfig back_end;
   VolumeConfig volume;
+  int images_in_memory = 48;  ///< keyframe pyramids kept; the others are read again
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
-    visitor("features", features);
+    visitor("front_end", front_end);
+    visitor("back_end", back_end);
     visitor("volume", volume);
+    visitor("images_in_memory", images_in_memory);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// What a run gets beside its configuration.
@@ -58,15 +44,15 @@ struct MapRun {
 struct [[nodiscard]] MapResult {
   int frames = 0;
   int skipped_frames = 0;  ///< could not be read
-  int lost_frames = 0;     ///< have the pose of the last one that was not lost
+  int lost_frames = 0;     ///< have a pose between, or of, those about them
   int keyframes = 0;
   int loops = 0;
   int submaps = 0;  ///< parts of the drive that no loop has joined; 1 is what one wants
   bool floor_found = false;
 };
 
-/// Writes every file of `map/` into `map_folder`, which exists and is empty. Throws base::Error.
-MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run,
-                   const std::filesystem::path& map_folder);
+/// Builds the metric map of a recorded drive: track → close loops → refine → find the floor → fuse. Writes every file of `map/` into
+/// `map_folder`, which exists and is empty. Throws base::Error.
+MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run, const std::filesystem::path& map_folder);
 
 }  // namespace oikos::mapping

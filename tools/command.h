@@ -33,8 +33,9 @@ struct GlobalOptions {
 /// What `--help` says about a command.
 struct CommandText {
   std::string name;
-  std::string purpose;   ///< one line
-  std::string examples;  ///< whole command lines, one a line
+  std::string purpose;        ///< one line
+  std::string examples;       ///< whole command lines, one a line
+  bool takes_config = false;  ///< without it `--config` is a usage error
 };
 
 /// What a command may use while it runs.
@@ -53,7 +54,8 @@ CLI::App& addCommand(CLI::App& parent, const CommandText& text);
 void setAction(CLI::App& command, Action action);
 
 // One file each: tools/NAME.cpp.
-void addEvaluate(CLI::App& root);
-void addMap(CLI::App& root);
+void addEvaluateCommand(CLI::App& root);
+void addInspectCommand(CLI::App& root);
+void addMapCommand(CLI::App& root);
 
 }  // namespace oikos::tools

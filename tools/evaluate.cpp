@@ -155,7 +155,7 @@ ExitCode evaluateTrajectoryFiles(TrajectoryOptions options, const Session& sessi
   return answered ? ExitCode::kDone : ExitCode::kNoAnswer;
 }
 
-void addTrajectory(CLI::App& evaluate) {
+void addTrajectoryEvaluation(CLI::App& evaluate) {
   CLI::App& command = addCommand(evaluate, {"trajectory", "Measures the absolute and relative errors of a trajectory.",
                                             "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
                                             "  oikos evaluate trajectory estimate.txt truth.txt --json\n"
@@ -239,11 +239,11 @@ void addMapEvaluation(CLI::App& evaluate) {
 
 }  // namespace
 
-void addEvaluate(CLI::App& program) {
-  CLI::App& evaluate = addCommand(program, {"evaluate", "Measures results against truth with the field's metrics.",
-                                            "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
-                                            "  oikos evaluate map home/map/cloud.ply scan.ply"});
-  addTrajectory(evaluate);
+void addEvaluateCommand(CLI::App& root) {
+  CLI::App& evaluate = addCommand(root, {"evaluate", "Measures results against truth with the field's metrics.",
+                                         "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
+                                         "  oikos evaluate map home/map/cloud.ply scan.ply"});
+  addTrajectoryEvaluation(evaluate);
   addMapEvaluation(evaluate);
 }
 

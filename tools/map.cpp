@@ -65,10 +65,10 @@ mapping::MapConfig configOf(const MapOptions& options, const GlobalOptions& glob
     layers.settings.push_back(base::parseSetting(text));
   }
   if (!options.features.empty()) {
-    layers.settings.push_back({"features", options.features, "--features"});
+    layers.settings.push_back({"front_end.features.type", options.features, "--features"});
   }
   if (!options.resolution.empty()) {
-    layers.settings.push_back({"volume.resolution_m", options.resolution, "--resolution"});
+    layers.settings.push_back({"volume.occupancy.resolution_m", options.resolution, "--resolution"});
   }
   if (options.every_frame) {
     layers.settings.push_back({"volume.every_frame", "true", "--every-frame"});
@@ -143,8 +143,8 @@ Summary buildHome(const MapOptions& options, const Session& session) {
 
 }  // namespace
 
-void addMap(CLI::App& root) {
-  CLI::App& command = addCommand(root, {"map", "Builds the metric map of a home from a recorded drive.", kExamples});
+void addMapCommand(CLI::App& root) {
+  CLI::App& command = addCommand(root, {"map", "Builds the metric map of a home from a recorded drive.", kExamples, true});
   const auto options = std::make_shared<MapOptions>();
   declareOptions(command, *options);
   setAction(command, [options](const Session& session) {

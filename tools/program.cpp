@@ -25,6 +25,7 @@ class CommandApp : public CLI::App {
  public:
   using CLI::App::App;
   Action action;
+  bool takes_config = false;
 };
 
 ExitCode report(ExitCode code, const std::string& what) {
@@ -92,6 +93,7 @@ CLI::App& addCommand(CLI::App& parent, const CommandText& text) {
   const auto command = std::make_shared<CommandApp>(text.purpose, text.name);
   parent.add_subcommand(command);
   parent.require_subcommand(0, 1);
+  command->takes_config = text.takes_config;
   command->fallthrough();
   command->footer("Examples:\n" + text.examples + "\nOptions of every command: oikos --help");
   return *command;
@@ -117,6 +119,7 @@ Program::Program() : root_(std::make_unique<CLI::App>("Gives a domestic robot a 
   root.add_flag("--quiet", options_.quiet, "show no progress");
   root.footer(
       "Examples:\n"
+      "  oikos inspect ~/drives/flat-3\n"
       "  oikos map ~/drives/flat-3 --out ~/homes/flat-3\n"
       "  oikos map --help\n"
       "Exit codes: 0 done, 1 no answer, 2 wrong usage, 3 wrong input, 4 I/O, 5 internal error.");
@@ -138,6 +141,9 @@ ExitCode Program::runCommand(Interrupts& interrupts) const {
   const auto* const command = dynamic_cast<const CommandApp*>(&chosen);
   if (command == nullptr || !command->action) {
     return report(ExitCode::kUsage, "a command is missing (see " + commandLineOf(chosen) + " --help)");
+  }
+  if (!options_.config.empty() && !command->takes_config) {
+    return report(ExitCode::kUsage, "--config: " + commandLineOf(chosen) + " has no parameters that a file could give");
   }
   try {
     return flushAnswer(command->action({options_, interrupts}));

@@ -187,15 +187,13 @@ toml::table parseSettingValue(const Setting& setting, const ConfigField& field, 
   if (is_text && !is_quoted) {
     return toml::table{{"value", setting.value}};
   }
+  const Error no_value(origin.code, setting.key + " = " + setting.value + ": is not a TOML value", origin.where);
   try {
     toml::table table = toml::parse("value = " + setting.value);
-    if (table.size() == 1) {
-      return table;
-    }
+    return table.size() == 1 ? table : throw no_value;  // a line break in the value would begin another key
   } catch (const toml::parse_error&) {
-    // Falls through: the message below says the same with the user's own words.
+    throw no_value;
   }
-  throw Error(origin.code, setting.key + " = " + setting.value + ": is not a TOML value", origin.where);
 }
 
 void assignSetting(const std::vector<ConfigField>& fields, const Setting& setting, ConfigOrigins& origins) {

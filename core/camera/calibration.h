@@ -32,7 +32,7 @@ struct DepthCamera {
   Eigen::Isometry3d T_color_depth = Eigen::Isometry3d::Identity();
 };
 
-/// What `camera.toml` says about the camera of a recording (docs/formats.md).
+/// What `camera.toml` says about the camera of a recording.
 struct Calibration {
   PinholeCamera color;                             ///< also the camera of the rectified frames
   LensDistortion distortion;                       ///< of the colour images as they are stored

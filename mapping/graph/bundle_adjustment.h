@@ -13,6 +13,16 @@ struct BundleAdjustmentConfig {
   double host_depth_weight = 1.0;      ///< of the information of the host's reading
   double sighting_depth_weight = 0.2;  ///< of that of the other readings: they share errors with each other
   double readout_sigma_s = 0.02;       ///< prior of the read-out time, about 0
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("max_iterations", max_iterations);
+    visitor("pixel_sigma_px", pixel_sigma_px);
+    visitor("cauchy_sigmas", cauchy_sigmas);
+    visitor("host_depth_weight", host_depth_weight);
+    visitor("sighting_depth_weight", sighting_depth_weight);
+    visitor("readout_sigma_s", readout_sigma_s);
+  }
 };
 
 enum class Readout { kFixed, kRefined };

@@ -30,9 +30,9 @@ class Matcher {
       known.insert(o.landmark);
     }
     std::vector<Observation> found;
-    const std::shared_ptr<const ImagePyramid> target = images_.get(index);
+    const std::shared_ptr<const ImagePyramid> target = images_.get(node.frame);
     for (const Partner& partner : partners(index)) {
-      const std::shared_ptr<const ImagePyramid> host = images_.get(partner.node);
+      const std::shared_ptr<const ImagePyramid> host = images_.get(graph_.nodes[static_cast<std::size_t>(partner.node)].frame);
       std::vector<Candidate> candidates;
       for (const int id : graph_.nodes[static_cast<std::size_t>(partner.node)].hosted) {
         if (!known.contains(id)) {

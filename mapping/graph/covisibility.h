@@ -15,6 +15,14 @@ struct CovisibilityConfig {
   int min_expected = 12;        ///< landmarks of a partner that should be in view
   double max_view_deg = 50.0;   ///< between the optical axes
   double gate_px = 4.0;         ///< a patch found farther from where the graph expects it is not the landmark
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("max_partners", max_partners);
+    visitor("min_expected", min_expected);
+    visitor("max_view_deg", max_view_deg);
+    visitor("gate_px", gate_px);
+  }
 };
 
 /// Looks for each node's view of the landmarks of nodes nearby which tracking did not follow into it, from the optimised poses:

@@ -81,8 +81,8 @@ void FrontEnd::startSubmap(const Current& current) {
   reference_ = node;
   seen_at_keyframe_ = static_cast<int>(active_.size());
   T_previous_current_.setIdentity();
-  features_.back() = first.getFeatures(camera_, config_.features);
-  places_.add(node, features_.back());
+  result_.features.back() = first.getFeatures(camera_, config_.features);
+  places_.add(node, result_.features.back());
   FollowResult seen;
   seen.pose.T_world_camera = T_world_camera_;
   record(current, seen, TrackingStatus::kStart);
@@ -106,7 +106,7 @@ FollowResult FrontEnd::follow(const Current& current, const Eigen::Isometry3d& T
     const Landmark& landmark = result_.graph.landmarks[static_cast<std::size_t>(id)];
     auto& pyramid = hosts[landmark.host];
     if (!pyramid) {
-      pyramid = images_.get(landmark.host);
+      pyramid = images_.get(result_.graph.nodes[static_cast<std::size_t>(landmark.host)].frame);
     }
     candidates.push_back({id, &landmark, result_.graph.nodes[static_cast<std::size_t>(landmark.host)].T_world_camera, pyramid.get()});
   }
@@ -135,9 +135,9 @@ std::optional<FollowResult> FrontEnd::recover(Current& current) {
 
 std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const PlaceIndex::Candidate& candidate) {
   const auto old = static_cast<std::size_t>(candidate.place);
-  const std::vector<FeatureMatch> matches = matchFeatures(features_[old], *current.features);
+  const std::vector<FeatureMatch> matches = matchFeatures(result_.features[old], *current.features);
   const std::uint64_t seed = seed_ ^ (static_cast<std::uint64_t>(current.frame.index) << 32U) ^ static_cast<std::uint64_t>(candidate.place);
-  const RelativeMotion motion = estimateMotion(features_[old], *current.features, matches, camera_, config_.motion, seed);
+  const RelativeMotion motion = estimateMotion(result_.features[old], *current.features, matches, camera_, config_.motion, seed);
   LoopAttempt attempt{candidate.place, current.frame.index, candidate.votes, static_cast<int>(motion.inlier.size()), motion.rms_px, LoopCheck::kTooFewMatches};
   std::optional<Revisit> revisit;
   if (motion.status == MotionStatus::kConverged) {
@@ -227,7 +227,7 @@ void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
     seen_at_keyframe_ = seen.pose.inliers;
     return;
   }
-  features_.back() = features;
+  result_.features.back() = features;
   places_.add(node, features);
   host(current, node, seen.observations);
   reference_ = node;
@@ -248,9 +248,9 @@ int FrontEnd::addNode(const Current& current, const Eigen::Isometry3d& T_world_c
   node.keyframe = keyframe;
   node.T_world_camera = T_world_camera;
   result_.graph.nodes.push_back(std::move(node));
-  features_.emplace_back();
+  result_.features.emplace_back();
   const int id = static_cast<int>(result_.graph.nodes.size()) - 1;
-  images_.put(id, current.pyramid);
+  images_.put(current.frame.index, current.pyramid);
   return id;
 }
 

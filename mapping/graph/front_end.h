@@ -31,6 +31,23 @@ struct FrontEndConfig {
   int min_loop_votes = 15;
   double reuse_overlap = 0.6;         ///< share of an old keyframe's landmarks that must be seen again to take it instead of a new one
   int max_lost_frames = 5;            ///< lost for longer: a new sub-map is begun
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("features", features);
+    visitor("corners", corners);
+    visitor("follower", follower);
+    visitor("motion", motion);
+    visitor("pyramid_levels", pyramid_levels);
+    visitor("keyframe_overlap", keyframe_overlap);
+    visitor("keyframe_rotation_deg", keyframe_rotation_deg);
+    visitor("keyframe_parallax", keyframe_parallax);
+    visitor("neighbourhood", neighbourhood);
+    visitor("loop_candidates", loop_candidates);
+    visitor("min_loop_votes", min_loop_votes);
+    visitor("reuse_overlap", reuse_overlap);
+    visitor("max_lost_frames", max_lost_frames);
+  }
 };
 
 enum class TrackingStatus { kTracked, kRelocalised, kLost, kStart };
@@ -59,6 +76,7 @@ struct LoopAttempt {
 
 struct FrontEndResult {
   KeyframeGraph graph;
+  std::vector<Features> features;  ///< one a node; empty for bridges
   std::vector<TrackedFrame> frames;
   std::vector<LoopAttempt> loop_attempts;
   int submaps = 0;
@@ -103,7 +121,6 @@ class FrontEnd {
   std::uint64_t seed_;
   FrontEndResult result_;
   PlaceIndex places_;
-  std::vector<Features> features_;  ///< one a node; empty for bridges
   std::vector<int> active_;         ///< landmarks looked for in the next frame
   int reference_ = -1;              ///< node whose landmarks are seen most
   int seen_at_keyframe_ = 0;

@@ -8,22 +8,22 @@ namespace oikos::mapping {
 KeyframeImages::KeyframeImages(Loader loader, int pyramid_levels, int capacity)
     : loader_(std::move(loader)), pyramid_levels_(pyramid_levels), capacity_(static_cast<std::size_t>(capacity)) {}
 
-void KeyframeImages::put(int node, std::shared_ptr<const ImagePyramid> pyramid) {
+void KeyframeImages::put(int frame, std::shared_ptr<const ImagePyramid> pyramid) {
   const std::lock_guard lock(mutex_);
-  entries_[node] = {std::move(pyramid), ++uses_};
+  entries_[frame] = {std::move(pyramid), ++uses_};
   evict();
 }
 
-std::shared_ptr<const ImagePyramid> KeyframeImages::get(int node) {
+std::shared_ptr<const ImagePyramid> KeyframeImages::get(int frame) {
   {
     const std::lock_guard lock(mutex_);
-    if (const auto found = entries_.find(node); found != entries_.end()) {
+    if (const auto found = entries_.find(frame); found != entries_.end()) {
       found->second.last_use = ++uses_;
       return found->second.pyramid;
     }
   }
-  auto pyramid = std::make_shared<const ImagePyramid>(loader_(node), pyramid_levels_);
-  put(node, pyramid);
+  auto pyramid = std::make_shared<const ImagePyramid>(loader_(frame), pyramid_levels_);
+  put(frame, pyramid);
   return pyramid;
 }
 

@@ -11,16 +11,16 @@
 
 namespace oikos::mapping {
 
-/// The grey pyramids of the nodes, the most recently used ones in memory, the others read again from the recording when
-/// they are asked for: memory does not grow with the drive. Thread-safe.
+/// The grey pyramids of frames, the most recently used ones in memory, the others read again from the recording when they are
+/// asked for: memory does not grow with the drive. Thread-safe.
 class KeyframeImages {
  public:
-  using Loader = std::function<cv::Mat(int node)>;  ///< the grey image (CV_8UC1) of a node
+  using Loader = std::function<cv::Mat(int frame)>;  ///< the grey image (CV_8UC1) of a frame of the recording
 
   KeyframeImages(Loader loader, int pyramid_levels, int capacity);
 
-  void put(int node, std::shared_ptr<const ImagePyramid> pyramid);
-  [[nodiscard]] std::shared_ptr<const ImagePyramid> get(int node);
+  void put(int frame, std::shared_ptr<const ImagePyramid> pyramid);
+  [[nodiscard]] std::shared_ptr<const ImagePyramid> get(int frame);
 
  private:
   struct Entry {

@@ -13,6 +13,15 @@ struct LoopConsistencyConfig {
   double loop_sigma_m = 0.02;           ///< of a loop's own measurement
   double loop_sigma_rad = 0.01;
   double gate_sigmas = 4.0;             ///< a cycle that fails to close by more is inconsistent
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("drift_m_per_edge", drift_m_per_edge);
+    visitor("drift_rad_per_edge", drift_rad_per_edge);
+    visitor("loop_sigma_m", loop_sigma_m);
+    visitor("loop_sigma_rad", loop_sigma_rad);
+    visitor("gate_sigmas", gate_sigmas);
+  }
 };
 
 /// Which loop edges to believe: the largest set found of which every two close a cycle with the odometry between them (Mangelson

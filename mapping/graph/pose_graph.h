@@ -14,6 +14,16 @@ struct PoseGraphConfig {
   double cauchy_sigmas = 3.0;        ///< robust kernel of loops
   double odometry_sigma_m = 0.03;    ///< of one step of the recorded odometry between two nodes
   double odometry_sigma_rad = 0.03;
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("max_iterations", max_iterations);
+    visitor("information_scale", information_scale);
+    visitor("max_information", max_information);
+    visitor("cauchy_sigmas", cauchy_sigmas);
+    visitor("odometry_sigma_m", odometry_sigma_m);
+    visitor("odometry_sigma_rad", odometry_sigma_rad);
+  }
 };
 
 /// Relative motion from another source (wheel odometry): weak, with a robust kernel.

@@ -15,6 +15,15 @@ struct CornerDetectorConfig {
   double max_depth_m = 8.0;        ///< farther readings make no landmark
   int depth_window_px = 5;         ///< half size of the window in which the surface is fitted
   double max_plane_residual = 2.5; ///< RMS of inverse depth about the fitted plane, in its standard deviations
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("cell_px", cell_px);
+    visitor("min_response", min_response);
+    visitor("max_depth_m", max_depth_m);
+    visitor("depth_window_px", depth_window_px);
+    visitor("max_plane_residual", max_plane_residual);
+  }
 };
 
 /// New landmarks of a keyframe, spread evenly: in each cell that holds no pixel of `occupied`, the strongest corner (Shi & Tomasi,

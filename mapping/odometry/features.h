@@ -7,12 +7,16 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "core/base/enum_table.h"
 #include "core/camera/pinhole_camera.h"
 #include "core/camera/rgbd_frame.h"
 
 namespace oikos::mapping {
 
 enum class FeatureType { kSift, kOrb };
+constexpr auto enumTable(FeatureType) {
+  return std::to_array<base::EnumName<FeatureType>>({{FeatureType::kSift, "sift"}, {FeatureType::kOrb, "orb"}});
+}
 
 struct FeatureConfig {
   FeatureType type = FeatureType::kSift;
@@ -21,6 +25,16 @@ struct FeatureConfig {
   double contrast_threshold = 0.02; ///< SIFT's, of OpenCV
   int fast_threshold = 12;         ///< ORB's
   double max_depth_m = 8.0;        ///< features without a reading up to here are dropped
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("type", type);
+    visitor("count", count);
+    visitor("image_scale", image_scale);
+    visitor("contrast_threshold", contrast_threshold);
+    visitor("fast_threshold", fast_threshold);
+    visitor("max_depth_m", max_depth_m);
+  }
 };
 
 /// 256 bits. ORB's own (Rublee et al., ICCV 2011), or SIFT's 128 numbers as two bits each (after Zhou et al., "Scalar

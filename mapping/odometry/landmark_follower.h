@@ -23,6 +23,18 @@ struct FollowerConfig {
   int coarsest_level = 3;          ///< of the first search; the second, from the solved pose, starts at level 1
   int min_inliers = 25;            ///< fewer: lost
   double min_inlier_ratio = 0.35;  ///< inliers / landmarks found; below it: lost
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("patch", patch);
+    visitor("pose", pose);
+    visitor("pixel_sigma_px", pixel_sigma_px);
+    visitor("max_scale", max_scale);
+    visitor("border_px", border_px);
+    visitor("coarsest_level", coarsest_level);
+    visitor("min_inliers", min_inliers);
+    visitor("min_inlier_ratio", min_inlier_ratio);
+  }
 };
 
 /// One image to look for landmarks in.

@@ -16,6 +16,16 @@ struct PatchAlignerConfig {
   double min_correlation = 0.75;    ///< zero-mean normalised cross-correlation at the answer
   int coarsest_answer = 2;          ///< a patch that aligns down to this level but not further is an answer too, a coarse one
   double min_eigenvalue = 4.0;    ///< least eigenvalue of the mean gradient matrix (grey values squared per pixel squared)
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("max_iterations", max_iterations);
+    visitor("converged_px", converged_px);
+    visitor("max_step_px", max_step_px);
+    visitor("min_correlation", min_correlation);
+    visitor("coarsest_answer", coarsest_answer);
+    visitor("min_eigenvalue", min_eigenvalue);
+  }
 };
 
 struct PatchQuery {

@@ -24,6 +24,14 @@ struct PoseSolverConfig {
   double huber_sigmas = 1.5;    ///< beyond it a residual pulls with constant force
   double outlier_sigmas = 4.0;  ///< beyond it a sighting is an outlier
   double depth_weight = 0.3;    ///< of the depth residuals' information: readings of one frame share their errors
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("max_iterations", max_iterations);
+    visitor("huber_sigmas", huber_sigmas);
+    visitor("outlier_sigmas", outlier_sigmas);
+    visitor("depth_weight", depth_weight);
+  }
 };
 
 enum class PoseStatus { kTooFewSightings, kDegenerate, kConverged };

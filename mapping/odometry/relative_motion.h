@@ -19,6 +19,16 @@ struct RelativeMotionConfig {
   int min_inliers = 20;
   double min_inlier_ratio = 0.3;   ///< inliers / matches
   double min_spread = 0.04;        ///< area of the inliers' 2-sigma ellipse in the image / the image's area
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("max_hypotheses", max_hypotheses);
+    visitor("inlier_px", inlier_px);
+    visitor("inlier_depth_sigmas", inlier_depth_sigmas);
+    visitor("min_inliers", min_inliers);
+    visitor("min_inlier_ratio", min_inlier_ratio);
+    visitor("min_spread", min_spread);
+  }
 };
 
 enum class MotionStatus { kTooFewMatches, kTooFewInliers, kTooLittleSpread, kConverged };

@@ -66,6 +66,29 @@ TEST(CommandLine, UsageErrorsExitWith2AndSayWhereHelpIs) {
   expectUsageError({"--seed", "1.5"}, "--seed");
 }
 
+TEST(CommandLine, MissingInputIsAnIoErrorAndWrongInputAnInputError) {
+  const TemporaryFolder folder;
+  const ProcessResult missing = runOikos({"inspect", (folder.path() / "missing").string()});
+  EXPECT_EQ(missing.exit_code, 4);
+  EXPECT_NE(missing.err.find("missing"), std::string::npos) << missing.err;
+  const ProcessResult empty = runOikos({"inspect", folder.path().string()});
+  EXPECT_EQ(empty.exit_code, 3);
+  EXPECT_TRUE(empty.err.starts_with("oikos: " + folder.path().string())) << empty.err;
+  const auto config = folder.write("inspect.toml", "[inspection]\nmax_frame = 3\n");
+  const ProcessResult unknown_key = runOikos({"inspect", folder.path().string(), "--config", config.string()});
+  EXPECT_EQ(unknown_key.exit_code, 3);
+  EXPECT_EQ(unknown_key.err,
+            "oikos: " + config.string() + ":2: unknown key 'inspection.max_frame'; the nearest known key is 'inspection.max_frames'\n");
+}
+
+TEST(CommandLine, ParametersOnTheCommandLineAreUsageErrorsWhenWrong) {
+  expectUsageError({"inspect", "x", "--set", "inspection.max_frames=1"}, "--set: inspection.max_frames = 1: must be >= 2");
+  expectUsageError({"inspect", "x", "--set", "inspection.max_frames=many"}, "--set: inspection.max_frames = many");
+  expectUsageError({"inspect"}, "RECORDING");
+  expectUsageError({"evaluate"}, "a command is missing (see oikos evaluate --help)");
+  expectUsageError({"evaluate", "trajctory"}, "did you mean 'trajectory'?");
+}
+
 TEST(CommandLine, AnswerThatCannotBeWrittenIsAnIoError) {
   Process process({oikosBinary(), "--help"}, "/dev/full");
   const ProcessResult result = process.finish();

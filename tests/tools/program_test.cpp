@@ -26,7 +26,7 @@ Outcome run(std::vector<std::string> words, const Action& action) {
   CLI::App& work = addCommand(program.root(), {"work", "Works.", "  oikos work"});
   setAction(work, action);
   CLI::App& measure = addCommand(program.root(), {"measure", "Measures.", "  oikos measure path"});
-  setAction(addCommand(measure, {"path", "Measures a path.", "  oikos measure path"}), action);
+  setAction(addCommand(measure, {"path", "Measures a path.", "  oikos measure path", true}), action);
   words.insert(words.begin(), "oikos");
   std::vector<char*> pointers;
   for (std::string& word : words) {
@@ -88,6 +88,12 @@ TEST(Program, NamesTheCommandThatWasMeant) {
   const Outcome inner = run({"measure", "pth"}, doNothing);
   EXPECT_EQ(inner.code, ExitCode::kUsage);
   EXPECT_EQ(inner.err, "oikos: no command 'pth'; did you mean 'path'? (see oikos measure --help)\n");
+}
+
+TEST(Program, ConfigurationFileThatNobodyWouldReadIsAUsageError) {
+  const Outcome result = run({"work", "--config", "a.toml"}, doNothing);
+  EXPECT_EQ(result.code, ExitCode::kUsage);
+  EXPECT_EQ(result.err, "oikos: --config: oikos work has no parameters that a file could give\n");
 }
 
 TEST(Program, CommandWithCommandsNeedsOne) {

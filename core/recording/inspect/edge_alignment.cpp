@@ -57,19 +57,40 @@ void addEdge(const Scan& scan, int line, int i, EdgeProfile& profile) {
   }
 }
 
-void profileScan(const Scan& scan, EdgeProfile& low_side, EdgeProfile& high_side) {
-  constexpr int kMargin = kLargestEdgeShift_px + 1;
-  constexpr int kLineStep = 2;
-  for (int line = 0; line < scan.lines(); line += kLineStep) {
+constexpr int kLineStep = 2;
+constexpr int kMargin = kLargestEdgeShift_px + 1;
+
+/// CV_8UC1 mask, a row for each line looked at, a column for each place on it.
+cv::Mat markEdges(const Scan& scan, int step) {
+  cv::Mat marks(scan.lines() / kLineStep, scan.length(), CV_8UC1, cv::Scalar(0));
+  for (int row = 0; row < marks.rows; ++row) {
     for (int i = kMargin; i < scan.length() - kMargin; ++i) {
-      if (isEdge(scan, line, i, -1)) {
-        addEdge(scan, line, i, low_side);
-      }
-      if (isEdge(scan, line, i, 1)) {
-        addEdge(scan, line, i, high_side);
+      marks.at<std::uint8_t>(row, i) = isEdge(scan, row * kLineStep, i, step) ? 1 : 0;
+    }
+  }
+  return marks;
+}
+
+/// A slanted edge cannot tell a shift along the scan from one across it: edges count only if they run on, within 1 px, two rows farther on
+/// both sides.
+void addEdgesAcross(const cv::Mat& marks, const Scan& scan, EdgeProfile& profile) {
+  constexpr int kNeighbour = 2;
+  const auto runsOn = [&marks](int row, int i) {
+    const auto* around = marks.ptr<std::uint8_t>(row) + i;
+    return around[-1] != 0 || around[0] != 0 || around[1] != 0;
+  };
+  for (int row = kNeighbour; row < marks.rows - kNeighbour; ++row) {
+    for (int i = kMargin; i < marks.cols - kMargin; ++i) {
+      if (marks.at<std::uint8_t>(row, i) != 0 && runsOn(row - kNeighbour, i) && runsOn(row + kNeighbour, i)) {
+        addEdge(scan, row * kLineStep, i, profile);
       }
     }
   }
+}
+
+void profileScan(const Scan& scan, EdgeProfile& low_side, EdgeProfile& high_side) {
+  addEdgesAcross(markEdges(scan, -1), scan, low_side);
+  addEdgesAcross(markEdges(scan, 1), scan, high_side);
 }
 
 using Curve = std::array<double, 2 * kLargestEdgeShift_px + 1>;
@@ -145,7 +166,7 @@ void addProfiles(const EdgeProfiles& more, EdgeProfiles& sum) {
 }
 
 EdgeShift findEdgeShift(const EdgeProfile& low_side, const EdgeProfile& high_side) {
-  constexpr int kFewestEdges = 500;
+  constexpr int kFewestEdges = 300;
   constexpr double kLeastPeak = 1.3;  // over the mean of all shifts
   EdgeShift shift;
   shift.edges = low_side.edges + high_side.edges;

@@ -10,7 +10,7 @@ namespace oikos::recording {
 
 /// What the inspection keeps of a frame.
 struct FrameMeasure {
-  double sharpness = 0.0;          ///< strength of the finest detail over that of coarser detail; falls with blur, not with contrast
+  double blur = 0.0;               ///< 0 to 1 along the worse image axis; sharp pictures have about 0.3, smeared ones more than 0.45
   double valid_depth_share = 0.0;  ///< of the pixels
   cv::Mat small_gray;              ///< CV_32FC1, kSmallWidth wide
 };

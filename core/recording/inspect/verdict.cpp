@@ -72,10 +72,9 @@ void judgeMotion(const Inspection& inspection, const InspectionConfig& config, s
               "turn slower, below " + fixed(config.max_turn_rate_deg_s / 2.0, 0) + " deg/s"},
              findings);
   const double blurred = shareOf(static_cast<int>(inspection.blurred.size()), inspection.inspected);
-  addIfAbove(
-      blurred, config.max_blurred_share,
-      {{}, percent(blurred) + " of the frames are blurred", "drive and turn slower, or switch on more light so that exposures get shorter"},
-      findings);
+  addIfAbove(blurred, config.max_blurred_share,
+             {{}, percent(blurred) + " of the frames are blurred", "drive and turn slower, or switch on more light for shorter exposures"},
+             findings);
 }
 
 void judgeDepth(const Inspection& inspection, const InspectionConfig& config, std::vector<Finding>& findings) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/recording/inspection.h"
+#include "core/recording/inspect/inspection.h"
 
 namespace oikos::recording {
 

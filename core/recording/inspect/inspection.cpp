@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/recording/inspection.h"
+#include "core/recording/inspect/inspection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
+#include "core/base/config_rules.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/recording/inspect/edge_alignment.h"
@@ -17,7 +18,7 @@ namespace oikos::recording {
 
 namespace {
 
-constexpr double kBlurredSharpness = 0.75;  // of the recording's sharp frames
+constexpr double kSmeared = 0.45;  // FrameMeasure::blur: the knee between still and moving frames of hand-held Kinect recordings
 
 /// Everything that is kept of one frame.
 struct Look {
@@ -125,22 +126,16 @@ MotionReport reportMotion(const std::vector<double>& rates_rad_s) {
 }
 
 std::vector<BlurredFrame> findBlurred(const std::vector<Look>& looks, const std::vector<double>& rates_rad_s) {
-  std::vector<double> sharpness;
-  for (const Look& look : looks) {
-    if (look.is_readable) {
-      sharpness.push_back(look.measure.sharpness);
-    }
-  }
-  const double sharp = quantile(sharpness, 0.9);
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::vector<BlurredFrame> blurred;
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    if (!looks[i].is_readable || looks[i].measure.sharpness >= kBlurredSharpness * sharp) {
+    const double blur = looks[i].measure.blur;
+    if (!looks[i].is_readable || blur <= kSmeared) {
       continue;
     }
-    std::string reason =
-        std::to_string(static_cast<int>(100.0 * looks[i].measure.sharpness / sharp)) + " % of the sharpness of sharp frames";
+    std::string reason = std::to_string(std::lround(100.0 * blur)) + " % of the fine detail is smeared (sharp pictures: about 30 %)";
     if (rates_rad_s[i] >= 0.0) {
-      reason += ", image moving at " + std::to_string(static_cast<int>(rates_rad_s[i] * 180.0 / std::numbers::pi)) + " deg/s";
+      reason.append(", the image moves at ").append(std::to_string(std::lround(rates_rad_s[i] * kDegrees))).append(" deg/s");
     }
     blurred.push_back({looks[i].index, reason});
   }
@@ -189,20 +184,15 @@ void countFrames(const std::vector<Look>& looks, Inspection& inspection) {
 }  // namespace
 
 std::vector<std::string> InspectionConfig::validate() const {
-  std::vector<std::string> problems;
-  const auto require = [&problems](bool holds, const char* key, const char* rule) {
-    if (!holds) {
-      problems.push_back(std::string("inspection.").append(key).append(": must be ").append(rule));
-    }
-  };
-  require(max_frames >= 2, "max_frames", ">= 2");
-  require(geometry_frames >= 1, "geometry_frames", ">= 1");
-  require(threads >= 1, "threads", ">= 1");
-  require(max_blurred_share >= 0.0 && max_blurred_share <= 1.0, "max_blurred_share", "from 0 to 1");
-  require(max_turn_rate_deg_s > 0.0, "max_turn_rate_deg_s", "> 0");
-  require(min_valid_depth_share >= 0.0 && min_valid_depth_share <= 1.0, "min_valid_depth_share", "from 0 to 1");
-  require(max_edge_shift_px > 0.0, "max_edge_shift_px", "> 0");
-  return problems;
+  return base::ConfigRules()
+      .atLeast("max_frames", max_frames, 2)
+      .atLeast("geometry_frames", geometry_frames, 1)
+      .atLeast("threads", threads, 1)
+      .between("max_blurred_share", max_blurred_share, 0.0, 1.0)
+      .greater("max_turn_rate_deg_s", max_turn_rate_deg_s, 0.0)
+      .between("min_valid_depth_share", min_valid_depth_share, 0.0, 1.0)
+      .greater("max_edge_shift_px", max_edge_shift_px, 0.0)
+      .messages();
 }
 
 Inspection inspect(const Recording& recording, const InspectionConfig& config) {

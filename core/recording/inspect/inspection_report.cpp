@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/recording/inspection.h"
+#include "core/recording/inspect/inspection.h"
 
 namespace oikos::recording {
 

@@ -14,11 +14,21 @@ struct InspectionConfig {
   int max_frames = 900;      ///< of a longer recording, bursts of consecutive frames spread over it are looked at
   int geometry_frames = 60;  ///< frames whose depth edges and planes are looked at
   int threads = 2;           ///< changes no result
-  double max_blurred_share = 0.1;
+  double max_blurred_share = 0.15;
   double max_turn_rate_deg_s = 60.0;   ///< at the 95th percentile
   double min_valid_depth_share = 0.5;  ///< of the pixels, mean over frames
   double max_edge_shift_px = 2.0;      ///< of depth edges against colour edges
-  std::vector<std::string> validate() const;
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("max_frames", max_frames);
+    visitor("geometry_frames", geometry_frames);
+    visitor("max_blurred_share", max_blurred_share);
+    visitor("max_turn_rate_deg_s", max_turn_rate_deg_s);
+    visitor("min_valid_depth_share", min_valid_depth_share);
+    visitor("max_edge_shift_px", max_edge_shift_px);
+  }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 struct RateReport {

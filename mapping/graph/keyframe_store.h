@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "core/camera/pinhole_camera.h"
+#include "core/camera/rgbd_frame.h"
+#include "mapping/graph/keyframe_graph.h"
+#include "mapping/odometry/features.h"
+
+struct sqlite3;
+
+namespace oikos::mapping {
+
+/// A keyframe as it is kept for later: where it is, what it saw, and the landmarks that it hosts.
+struct StoredKeyframe {
+  int id = -1;                          ///< node of the graph
+  int frame = -1;                       ///< position in the recording
+  std::int64_t stamp_ns = 0;
+  Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
+  cv::Mat color;                        ///< CV_8UC3, BGR; kept as JPEG
+  cv::Mat depth_m;                      ///< CV_32FC1, NaN = no reading; kept to 0.2 mm, up to 13 m
+  Features features;
+  std::vector<Landmark> landmarks;
+};
+
+/// Writes `keyframes.sqlite`: tables `meta` (format, version, camera) and `keyframe` (one row each; blobs little-endian), in one ordered
+/// transaction. The same calls give the same bytes. Not thread-safe. Throws Error{kIo}.
+class KeyframeStoreWriter {
+ public:
+  KeyframeStoreWriter(const std::filesystem::path& file, const camera::PinholeCamera& camera);
+  ~KeyframeStoreWriter();
+  KeyframeStoreWriter(const KeyframeStoreWriter&) = delete;
+  KeyframeStoreWriter& operator=(const KeyframeStoreWriter&) = delete;
+
+  void add(const StoredKeyframe& keyframe);
+  void commit();
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::filesystem::path file_;
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// Reads a whole store back. Throws Error{kInput} that names what is wrong: not a store, a newer version, a damaged blob.
+struct KeyframeStore {
+  camera::PinholeCamera camera;
+  std::vector<StoredKeyframe> keyframes;
+};
+[[nodiscard]] KeyframeStore readKeyframeStore(const std::filesystem::path& file);
+
+}  // namespace oikos::mapping

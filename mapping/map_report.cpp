@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/map_report.h"
+
+#include <limits>
+#include <map>
+#include <set>
+
+namespace oikos::mapping {
+
+namespace {
+
+RecordingFacts recordingFacts(const MapFacts& facts) {
+  RecordingFacts r;
+  r.frames_listed = facts.statistics.listed;
+  r.frames_read = facts.statistics.read;
+  r.skipped = facts.statistics.unreadable;
+  r.unmatched = facts.statistics.listing.unmatched_color;
+  r.duplicates = facts.statistics.listing.duplicate_color;
+  for (const std::string& message : facts.statistics.first_messages) {
+    r.messages.push_back({"", message});
+  }
+  r.camera = facts.recording.camera();
+  return r;
+}
+
+FrameStatus statusOf(const TrackedFrame& frame, bool coasting) {
+  switch (frame.status) {
+    case TrackingStatus::kTracked:
+    case TrackingStatus::kStart:
+      return FrameStatus::kTracked;
+    case TrackingStatus::kRelocalised:
+      return FrameStatus::kRelocalised;
+    case TrackingStatus::kLost:
+      break;
+  }
+  return coasting ? FrameStatus::kCoasting : FrameStatus::kLost;
+}
+
+void addFrames(const MapFacts& facts, MapReport& report) {
+  std::set<int> keyframes;
+  for (const Node& node : facts.drive.graph.nodes) {
+    if (node.keyframe) {
+      keyframes.insert(node.frame);
+    }
+  }
+  for (std::size_t i = 0; i < facts.drive.frames.size(); ++i) {
+    const TrackedFrame& frame = facts.drive.frames[i];
+    FrameFacts f;
+    f.status = statusOf(frame, facts.coasting[i] != 0);
+    f.inliers = static_cast<int>(frame.observations.size());
+    f.residual_px = frame.observations.empty() ? std::numeric_limits<double>::quiet_NaN() : frame.rms_px;
+    f.is_keyframe = keyframes.contains(frame.frame);
+    report.frames.push_back(f);
+    report.trajectory.push_back({frame.stamp_ns, facts.optimised.T_world_frame[i]});
+    // Both begin at the same pose: what differs is drift.
+    const Eigen::Isometry3d T_map_odometry = facts.optimised.T_world_frame.front() * facts.optimised.T_world_frame_odometry.front().inverse();
+    report.trajectory_before_loops.push_back({frame.stamp_ns, T_map_odometry * facts.optimised.T_world_frame_odometry[i]});
+  }
+}
+
+/// Accepted attempts are edges, in the same order; the others failed by geometry.
+void addLoops(const MapFacts& facts, MapReport& report) {
+  std::map<int, int> position;
+  for (std::size_t i = 0; i < facts.drive.frames.size(); ++i) {
+    position[facts.drive.frames[i].frame] = static_cast<int>(i);
+  }
+  const KeyframeGraph& graph = facts.drive.graph;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const Edge& edge = graph.edges[e];
+    if (edge.kind != EdgeKind::kLoop) {
+      continue;
+    }
+    LoopFacts loop;
+    loop.from_frame = position.at(graph.nodes[static_cast<std::size_t>(edge.to)].frame);
+    loop.to_frame = position.at(graph.nodes[static_cast<std::size_t>(edge.from)].frame);
+    loop.inliers = edge.inliers;
+    loop.residual_px = edge.rms_px;
+    constexpr double kDownWeighted = 0.25;
+    loop.verdict = facts.optimised.believed[e] == 0                               ? LoopVerdict::kRejectedByConsistency
+                   : facts.optimised.pose_graph.loop_weight[e] < kDownWeighted ? LoopVerdict::kDownWeighted
+                                                                                  : LoopVerdict::kAccepted;
+    report.loops.push_back(loop);
+  }
+  for (const LoopAttempt& attempt : facts.drive.loop_attempts) {
+    if (attempt.verdict == LoopCheck::kGeometryDisagrees) {
+      report.loops.push_back({position.at(attempt.frame), position.at(graph.nodes[static_cast<std::size_t>(attempt.from)].frame), attempt.inliers,
+                              attempt.rms_px, LoopVerdict::kRejectedByGeometry});
+    }
+  }
+}
+
+OptimisationFacts optimisationFacts(const BackEndResult& optimised) {
+  OptimisationFacts o;
+  const bool bundle = optimised.bundle.usable;
+  o.initial_cost = bundle ? optimised.bundle.initial_cost : optimised.pose_graph.initial_cost;
+  o.final_cost = bundle ? optimised.bundle.final_cost : optimised.pose_graph.final_cost;
+  o.iterations = bundle ? optimised.bundle.iterations : optimised.pose_graph.iterations;
+  o.converged = bundle || optimised.pose_graph.usable;
+  if (optimised.readout_s != 0.0) {
+    o.refined.push_back({"rolling_shutter_readout_s", 0.0, optimised.readout_s});
+  }
+  return o;
+}
+
+VolumeFacts volumeFacts(const MapFacts& facts) {
+  VolumeFacts v;
+  v.resolution_m = facts.volume.occupancy.resolution_m;
+  v.voxels_occupied = facts.fused.voxels_occupied;
+  v.voxels_free = facts.fused.voxels_free;
+  for (const Cell cell : facts.fused.grid.cells) {
+    v.cells_occupied += cell == Cell::kOccupied ? 1 : 0;
+    v.cells_free += cell == Cell::kFree ? 1 : 0;
+  }
+  v.cloud_points = facts.fused.cloud_points;
+  v.mesh_triangles = facts.fused.mesh_triangles;
+  v.box_min_m = facts.fused.box_min_map;
+  v.box_max_m = facts.fused.box_max_map;
+  return v;
+}
+
+GridPicture gridPicture(const OccupancyGrid& grid) {
+  GridPicture picture;
+  picture.resolution_m = grid.resolution_m;
+  picture.origin_m = grid.corner_map;
+  picture.cells = cv::Mat(grid.height, grid.width, CV_8UC1);
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = 0; column < grid.width; ++column) {
+      picture.cells.at<std::uint8_t>(grid.height - 1 - row, column) = static_cast<std::uint8_t>(grid.at(column, row));
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+MapReport makeReport(const MapFacts& facts) {
+  MapReport report;
+  report.recording = recordingFacts(facts);
+  addFrames(facts, report);
+  report.submaps = facts.drive.submaps;
+  report.submaps_joined = facts.drive.submaps - facts.optimised.submaps_left + 1;
+  report.relocalisations = facts.drive.relocalisations;
+  addLoops(facts, report);
+  report.optimisation = optimisationFacts(facts.optimised);
+  report.floor = {facts.floor.status == FloorStatus::kFound ? FloorSighting::kFound : FloorSighting::kNotInSight, facts.floor.camera_height_m};
+  report.volume = volumeFacts(facts);
+  report.grid = gridPicture(facts.fused.grid);
+  return report;
+}
+
+}  // namespace oikos::mapping

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/recording/frame_stream.h"
+#include "mapping/graph/back_end.h"
+#include "mapping/report/report.h"
+#include "mapping/volume/map_builder.h"
+
+namespace oikos::mapping {
+
+/// All that a mapping run knows at its end; poses in the map's frame.
+struct MapFacts {
+  const recording::Recording& recording;
+  const recording::StreamStatistics& statistics;
+  const FrontEndResult& drive;
+  const BackEndResult& optimised;
+  const FloorResult& floor;
+  const FusedMap& fused;
+  const std::vector<char>& coasting;  ///< one a frame: carried by odometry
+  const VolumeConfig& volume;
+};
+
+[[nodiscard]] MapReport makeReport(const MapFacts& facts);
+
+}  // namespace oikos::mapping

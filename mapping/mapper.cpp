@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/mapper.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "core/base/atomic_file.h"
+#include "core/base/config.h"
+#include "core/base/config_rules.h"
+#include "core/base/error.h"
+#include "core/recording/frame_stream.h"
+#include "mapping/graph/frame_poses.h"
+#include "mapping/graph/g2o_file.h"
+#include "mapping/graph/keyframe_store.h"
+#include "mapping/map_report.h"
+#include "mapping/odometry_priors.h"
+#include "mapping/report/timing.h"
+
+namespace oikos::mapping {
+
+namespace {
+
+class StageClock {
+ public:
+  void begin(const std::string& stage) {
+    end();
+    stages_.push_back({stage, 0.0});
+    begin_ = Clock::now();
+  }
+  void end() {
+    if (!stages_.empty() && stages_.back().wall_s == 0.0) {
+      stages_.back().wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    }
+  }
+  [[nodiscard]] const std::vector<StageTime>& stages() const { return stages_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::vector<StageTime> stages_;
+  Clock::time_point begin_;
+};
+
+/// z and tilt from the floor; x, y and heading from the base at the first frame, where the mount is known.
+Eigen::Isometry3d mapFrame(const FloorResult& floor, const Eigen::Isometry3d& T_world_first_camera, const std::optional<Eigen::Isometry3d>& T_base_camera) {
+  if (!T_base_camera) {
+    return floor.T_map_world;
+  }
+  const Eigen::Isometry3d T_world_base = T_world_first_camera * T_base_camera->inverse();
+  if (floor.status != FloorStatus::kFound) {
+    return T_world_base.inverse();
+  }
+  const Eigen::Isometry3d T_floor_base = floor.T_map_world * T_world_base;
+  const Eigen::Vector3d forward = T_floor_base.linear().col(0);
+  Eigen::Isometry3d T_floor_map = Eigen::Isometry3d::Identity();
+  T_floor_map.linear() = Eigen::AngleAxisd(std::atan2(forward.y(), forward.x()), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T_floor_map.translation() = Eigen::Vector3d(T_floor_base.translation().x(), T_floor_base.translation().y(), 0.0);
+  return T_floor_map.inverse() * floor.T_map_world;
+}
+
+class Mapper {
+ public:
+  Mapper(const recording::Recording& recording, const MapConfig& config, const MapRun& run, const std::filesystem::path& folder)
+      : recording_(recording),
+        config_(config),
+        run_(run),
+        folder_(folder),
+        images_([this](int frame) { return recording_.read(frame, recording::Channels::kGray).gray; }, config.front_end.pyramid_levels,
+                config.images_in_memory) {}
+
+  MapResult build() {
+    clock_.begin("tracking");
+    track();
+    clock_.begin("optimisation");
+    optimise();
+    clock_.begin("floor");
+    placeInMap();
+    clock_.begin("fusion");
+    fuse();
+    clock_.begin("writing");
+    write();
+    return summary();
+  }
+
+ private:
+  void track() {
+    const int lookahead_threads = std::max(1, run_.threads - 1);
+    recording::FrameStream stream(recording_, {.decode_threads = lookahead_threads});
+    FrontEnd front_end(recording_.camera(), config_.front_end, images_, static_cast<std::uint64_t>(run_.seed));
+    while (const auto frame = stream.next()) {
+      front_end.add(*frame);
+      base::reportProgress(run_.progress, {"tracking", stream.statistics().read + stream.statistics().unreadable, stream.statistics().listed});
+    }
+    drive_ = front_end.finish();
+    statistics_ = stream.statistics();
+    if (drive_.frames.empty()) {
+      throw base::Error(base::ErrorCode::kInput, "no frame could be read");
+    }
+  }
+
+  void optimise() {
+    odometry_ = OdometryPriors(recording_.findOdometry(), run_.T_base_camera ? run_.T_base_camera : recording_.T_base_camera());
+    const BackEndTools tools{recording_.camera(), config_.front_end.follower, images_, [this](int f) { return recording_.read(f, recording::Channels::kGray); },
+                             config_.front_end.pyramid_levels, run_.threads, run_.progress};
+    const std::vector<MotionPrior> priors = odometry_.betweenNodes(drive_.graph);
+    optimised_ = optimiseDrive(drive_, priors, config_.back_end, tools);
+    coasting_ = odometry_.carryLostFrames(drive_.frames, optimised_.T_world_frame);
+  }
+
+  [[nodiscard]] FusionInput fusionInput() const {
+    return {recording_.camera(),
+            [this](int frame, bool color) { return recording_.read(frame, color ? recording::Channels::kColor : recording::Channels::kGray); },
+            run_.threads,
+            [this](int done, int total) { base::reportProgress(run_.progress, {"fusing the map", done, total}); }};
+  }
+
+  /// Keyframes of the sub-map that the drive began with (what no loop joined to it has no place in its map), or all its frames.
+  [[nodiscard]] std::vector<View> views() const {
+    std::vector<View> chosen;
+    const int submap = drive_.graph.nodes[static_cast<std::size_t>(mainSubmapNode())].submap;
+    if (config_.volume.every_frame) {
+      for (std::size_t i = 0; i < drive_.frames.size(); ++i) {
+        const TrackedFrame& frame = drive_.frames[i];
+        if (frame.status != TrackingStatus::kLost && drive_.graph.nodes[static_cast<std::size_t>(frame.reference)].submap == submap) {
+          chosen.push_back({frame.frame, optimised_.T_world_frame[i]});
+        }
+      }
+      return chosen;
+    }
+    for (const Node& node : drive_.graph.nodes) {
+      if (node.keyframe && node.submap == submap) {
+        chosen.push_back({node.frame, node.T_world_camera});
+      }
+    }
+    return chosen;
+  }
+
+  /// A node of the sub-map with most frames; the first of equals.
+  [[nodiscard]] int mainSubmapNode() const {
+    std::map<int, int> frames;
+    for (const TrackedFrame& frame : drive_.frames) {
+      ++frames[drive_.graph.nodes[static_cast<std::size_t>(frame.reference)].submap];
+    }
+    const int submap = std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    const auto node = std::find_if(drive_.graph.nodes.begin(), drive_.graph.nodes.end(), [&](const Node& n) { return n.submap == submap; });
+    return static_cast<int>(node - drive_.graph.nodes.begin());
+  }
+
+  /// Moves everything from the graph's world into the map.
+  void placeInMap() {
+    base::reportProgress(run_.progress, {"looking for the floor", 0, 0});
+    floor_ = findFloor(views(), fusionInput(), config_.volume);
+    const Eigen::Isometry3d T_map_world = mapFrame(floor_, optimised_.T_world_frame.front(), run_.T_base_camera);
+    for (Node& node : drive_.graph.nodes) {
+      node.T_world_camera = T_map_world * node.T_world_camera;
+    }
+    for (auto* poses : {&optimised_.T_world_frame, &optimised_.T_world_frame_odometry}) {
+      for (Eigen::Isometry3d& T : *poses) {
+        T = T_map_world * T;
+      }
+    }
+  }
+
+  void fuse() {
+    KeyframeStoreWriter store(folder_ / "keyframes.sqlite", recording_.camera());
+    std::size_t next = 0;
+    const auto storeKeyframe = [&](const camera::RgbdFrame& frame) {
+      while (next < drive_.graph.nodes.size() && (drive_.graph.nodes[next].frame < frame.index || !drive_.graph.nodes[next].keyframe)) {
+        ++next;
+      }
+      if (next == drive_.graph.nodes.size() || drive_.graph.nodes[next].frame != frame.index) {
+        return;
+      }
+      const Node& node = drive_.graph.nodes[next];
+      StoredKeyframe stored{static_cast<int>(next), node.frame, node.stamp_ns, node.T_world_camera, frame.color, frame.depth_m, drive_.features[next], {}};
+      for (const int id : node.hosted) {
+        stored.landmarks.push_back(drive_.graph.landmarks[static_cast<std::size_t>(id)]);
+      }
+      store.add(stored);
+    };
+    fused_ = fuseMap(views(), floor_.status == FloorStatus::kFound, fusionInput(), config_.volume, storeKeyframe, folder_);
+    store.commit();
+  }
+
+  [[nodiscard]] recording::Trajectory trajectory(const Eigen::Isometry3d& T_camera_tracked) const {
+    recording::Trajectory poses;
+    for (std::size_t i = 0; i < drive_.frames.size(); ++i) {
+      poses.push_back({drive_.frames[i].stamp_ns, optimised_.T_world_frame[i] * T_camera_tracked});
+    }
+    return poses;
+  }
+
+  void write() {
+    recording::writeTrajectory(trajectory(Eigen::Isometry3d::Identity()), folder_ / "trajectory.txt");
+    if (run_.T_base_camera) {
+      recording::writeTrajectory(trajectory(run_.T_base_camera->inverse()), folder_ / "base_trajectory.txt");
+    }
+    writeG2o(drive_.graph, optimised_.believed, folder_ / "graph.g2o");
+    base::writeFileAtomically(folder_ / "config.toml", base::writeConfig(config_));
+    const MapReport report = makeReport({recording_, statistics_, drive_, optimised_, floor_, fused_, coasting_, config_.volume});
+    base::writeFileAtomically(folder_ / "report.json", reportJson(report));
+    base::writeFileAtomically(folder_ / "report.html", reportHtml(report));
+    clock_.end();
+    TimingReport timing;
+    timing.stages = clock_.stages();
+    for (const StageTime& stage : timing.stages) {
+      timing.total_s += stage.wall_s;
+    }
+    timing.frames = static_cast<int>(drive_.frames.size());
+    timing.threads = run_.threads;
+    measureHost(timing);
+    base::writeFileAtomically(folder_ / "timing.json", timingJson(timing));
+  }
+
+  [[nodiscard]] MapResult summary() const {
+    MapResult result;
+    result.frames = static_cast<int>(drive_.frames.size());
+    result.skipped_frames = statistics_.unreadable;
+    result.lost_frames = static_cast<int>(
+        std::count_if(drive_.frames.begin(), drive_.frames.end(), [](const TrackedFrame& f) { return f.status == TrackingStatus::kLost; }));
+    result.keyframes = static_cast<int>(std::count_if(drive_.graph.nodes.begin(), drive_.graph.nodes.end(), [](const Node& n) { return n.keyframe; }));
+    for (std::size_t e = 0; e < drive_.graph.edges.size(); ++e) {
+      result.loops += drive_.graph.edges[e].kind == EdgeKind::kLoop && optimised_.believed[e] != 0 ? 1 : 0;
+    }
+    result.submaps = optimised_.submaps_left;
+    result.floor_found = floor_.status == FloorStatus::kFound;
+    return result;
+  }
+
+  const recording::Recording& recording_;
+  const MapConfig& config_;
+  const MapRun& run_;
+  const std::filesystem::path& folder_;
+  KeyframeImages images_;
+  StageClock clock_;
+  recording::StreamStatistics statistics_;
+  FrontEndResult drive_;
+  OdometryPriors odometry_;
+  BackEndResult optimised_;
+  std::vector<char> coasting_;
+  FloorResult floor_;
+  FusedMap fused_;
+};
+
+}  // namespace
+
+std::vector<std::string> MapConfig::validate() const { return base::ConfigRules().atLeast("images_in_memory", images_in_memory, 2).messages(); }
+
+MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run, const std::filesystem::path& map_folder) {
+  return Mapper(recording, config, run, map_folder).build();
+}
+
+}  // namespace oikos::mapping
