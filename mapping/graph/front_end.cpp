@@ -138,7 +138,8 @@ std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const 
   const std::vector<FeatureMatch> matches = matchFeatures(result_.features[old], *current.features);
   const std::uint64_t seed = seed_ ^ (static_cast<std::uint64_t>(current.frame.index) << 32U) ^ static_cast<std::uint64_t>(candidate.place);
   const RelativeMotion motion = estimateMotion(result_.features[old], *current.features, matches, camera_, config_.motion, seed);
-  LoopAttempt attempt{candidate.place, current.frame.index, candidate.votes, static_cast<int>(motion.inlier.size()), motion.rms_px, LoopCheck::kTooFewMatches};
+  LoopAttempt attempt{candidate.place, current.frame.index,      candidate.votes, static_cast<int>(motion.inlier.size()),
+                      motion.rms_px,   LoopCheck::kTooFewMatches};
   std::optional<Revisit> revisit;
   if (motion.status == MotionStatus::kConverged) {
     const std::vector<int> landmarks = landmarksOf(neighbourhood(candidate.place, 1));
@@ -149,10 +150,10 @@ std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const 
       attempt.inliers = seen.pose.inliers;
       attempt.rms_px = seen.pose.rms_px;
       const std::vector<int> own = landmarksOf({candidate.place});
-      const auto again = std::count_if(seen.observations.begin(), seen.observations.end(), [&](const Observation& o) {
-        return std::binary_search(own.begin(), own.end(), o.landmark);
-      });
-      revisit = Revisit{candidate.place, std::move(seen), static_cast<double>(again) / std::max<double>(1.0, static_cast<double>(own.size()))};
+      const auto again = std::count_if(seen.observations.begin(), seen.observations.end(),
+                                       [&](const Observation& o) { return std::binary_search(own.begin(), own.end(), o.landmark); });
+      revisit =
+          Revisit{candidate.place, std::move(seen), static_cast<double>(again) / std::max<double>(1.0, static_cast<double>(own.size()))};
     }
   } else if (motion.status != MotionStatus::kTooFewMatches) {
     attempt.verdict = LoopCheck::kGeometryDisagrees;
@@ -207,7 +208,8 @@ void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
       }
     }
   }
-  const auto best = std::max_element(revisits.begin(), revisits.end(), [](const Revisit& a, const Revisit& b) { return a.overlap < b.overlap; });
+  const auto best =
+      std::max_element(revisits.begin(), revisits.end(), [](const Revisit& a, const Revisit& b) { return a.overlap < b.overlap; });
   const bool reuse = best != revisits.end() && best->overlap >= config_.reuse_overlap;
   const int parent = reference_;
   const int node = addNode(current, seen.pose.T_world_camera, !reuse);

@@ -95,7 +95,8 @@ void writeG2o(const KeyframeGraph& graph, const std::vector<char>& believed, con
       const Edge& edge = graph.edges[e];
       const Eigen::Isometry3d T_from_to = graph.nodes[static_cast<std::size_t>(edge.from)].T_world_camera.inverse() *
                                           graph.nodes[static_cast<std::size_t>(edge.to)].T_world_camera;
-      text += "EDGE_SE3:QUAT " + std::to_string(edge.from) + ' ' + std::to_string(edge.to) + poseText(T_from_to) + informationText(edge.information) + '\n';
+      text += "EDGE_SE3:QUAT " + std::to_string(edge.from) + ' ' + std::to_string(edge.to) + poseText(T_from_to) +
+              informationText(edge.information) + '\n';
     }
   }
   base::writeFileAtomically(file, text);

@@ -107,7 +107,8 @@ class Statement {
   void bind(int index, double value) { check(sqlite3_bind_double(statement_, index, value)); }
   void bind(int index, const char* text) { check(sqlite3_bind_text(statement_, index, text, -1, SQLITE_TRANSIENT)); }
   void bind(int index, const std::vector<unsigned char>& blob) {
-    check(sqlite3_bind_blob64(statement_, index, blob.empty() ? reinterpret_cast<const unsigned char*>("") : blob.data(), blob.size(), SQLITE_TRANSIENT));
+    check(sqlite3_bind_blob64(statement_, index, blob.empty() ? reinterpret_cast<const unsigned char*>("") : blob.data(), blob.size(),
+                              SQLITE_TRANSIENT));
   }
   /// True while there is a row.
   bool step() {
@@ -153,7 +154,9 @@ void putMeta(sqlite3* database, const std::filesystem::path& file, const char* k
 template <class Row>
 std::vector<Row> fromBlob(const std::vector<unsigned char>& blob, const std::string& where) {
   if (blob.size() % sizeof(Row) != 0) {
-    throw base::Error(base::ErrorCode::kInput, "a blob of " + std::to_string(blob.size()) + " bytes, a multiple of " + std::to_string(sizeof(Row)) + " expected", where);
+    throw base::Error(base::ErrorCode::kInput,
+                      "a blob of " + std::to_string(blob.size()) + " bytes, a multiple of " + std::to_string(sizeof(Row)) + " expected",
+                      where);
   }
   std::vector<Row> rows(blob.size() / sizeof(Row));
   if (!rows.empty()) {
@@ -202,7 +205,12 @@ StoredKeyframe readRow(const Statement& row, const std::string& file) {
     k.features.descriptor.push_back({f.descriptor[0], f.descriptor[1], f.descriptor[2], f.descriptor[3]});
   }
   for (const LandmarkRow& l : fromBlob<LandmarkRow>(row.blob(7), where)) {
-    k.landmarks.push_back({k.id, {l.pixel[0], l.pixel[1]}, l.inverse_depth, l.inverse_depth, l.sigma, {l.inverse_depth_gradient[0], l.inverse_depth_gradient[1]}});
+    k.landmarks.push_back({k.id,
+                           {l.pixel[0], l.pixel[1]},
+                           l.inverse_depth,
+                           l.inverse_depth,
+                           l.sigma,
+                           {l.inverse_depth_gradient[0], l.inverse_depth_gradient[1]}});
   }
   return k;
 }
@@ -218,7 +226,9 @@ double metaNumber(sqlite3* database, const std::string& where, const char* key) 
 
 }  // namespace
 
-void KeyframeStoreWriter::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+void KeyframeStoreWriter::Close::operator()(sqlite3* database) const {
+  sqlite3_close(database);
+}
 
 KeyframeStoreWriter::KeyframeStoreWriter(const std::filesystem::path& file, const camera::PinholeCamera& camera) : file_(file) {
   sqlite3* opened = nullptr;
@@ -243,20 +253,26 @@ KeyframeStoreWriter::KeyframeStoreWriter(const std::filesystem::path& file, cons
 
 KeyframeStoreWriter::~KeyframeStoreWriter() = default;
 
-void KeyframeStoreWriter::add(const StoredKeyframe& keyframe) {
+EncodedPictures encodePictures(const cv::Mat& color, const cv::Mat& depth_m) {
+  return {encodeColor(color), encodeDepth(depth_m)};
+}
+
+void KeyframeStoreWriter::add(const StoredKeyframe& keyframe, const EncodedPictures& pictures) {
   Statement insert(database_.get(), "INSERT INTO keyframe VALUES(?, ?, ?, ?, ?, ?, ?, ?)", file_.string());
   insert.bind(1, std::int64_t{keyframe.id});
   insert.bind(2, std::int64_t{keyframe.frame});
   insert.bind(3, keyframe.stamp_ns);
   insert.bind(4, encodePose(keyframe.T_map_camera));
-  insert.bind(5, encodeColor(keyframe.color));
-  insert.bind(6, encodeDepth(keyframe.depth_m));
+  insert.bind(5, pictures.color_jpeg);
+  insert.bind(6, pictures.depth_png);
   insert.bind(7, encodeFeatures(keyframe.features));
   insert.bind(8, encodeLandmarks(keyframe.landmarks));
   insert.step();
 }
 
-void KeyframeStoreWriter::commit() { execute(database_.get(), "COMMIT;", file_); }
+void KeyframeStoreWriter::commit() {
+  execute(database_.get(), "COMMIT;", file_);
+}
 
 KeyframeStore readKeyframeStore(const std::filesystem::path& file) {
   sqlite3* opened = nullptr;
@@ -267,13 +283,19 @@ KeyframeStore readKeyframeStore(const std::filesystem::path& file) {
   }
   const std::string where = file.string();
   if (const double version = metaNumber(opened, where, "version"); version > kVersion) {
-    throw base::Error(base::ErrorCode::kInput, "version " + std::to_string(static_cast<int>(version)) + ", this program reads up to " + std::to_string(kVersion), where);
+    throw base::Error(base::ErrorCode::kInput,
+                      "version " + std::to_string(static_cast<int>(version)) + ", this program reads up to " + std::to_string(kVersion),
+                      where);
   }
   KeyframeStore store;
-  store.camera = {static_cast<int>(metaNumber(opened, where, "width_px")), static_cast<int>(metaNumber(opened, where, "height_px")),
-                  metaNumber(opened, where, "fx_px"), metaNumber(opened, where, "fy_px"), metaNumber(opened, where, "cx_px"),
+  store.camera = {static_cast<int>(metaNumber(opened, where, "width_px")),
+                  static_cast<int>(metaNumber(opened, where, "height_px")),
+                  metaNumber(opened, where, "fx_px"),
+                  metaNumber(opened, where, "fy_px"),
+                  metaNumber(opened, where, "cx_px"),
                   metaNumber(opened, where, "cy_px")};
-  Statement rows(opened, "SELECT id, frame, stamp_ns, t_map_camera, color_jpeg, depth_png, features, landmarks FROM keyframe ORDER BY id", where);
+  Statement rows(opened, "SELECT id, frame, stamp_ns, t_map_camera, color_jpeg, depth_png, features, landmarks FROM keyframe ORDER BY id",
+                 where);
   while (rows.step()) {
     store.keyframes.push_back(readRow(rows, where));
   }

@@ -62,7 +62,8 @@ class Judge {
 
  private:
   [[nodiscard]] Eigen::Isometry3d between(int from, int to) const {
-    return graph_.nodes[static_cast<std::size_t>(from)].T_world_camera.inverse() * graph_.nodes[static_cast<std::size_t>(to)].T_world_camera;
+    return graph_.nodes[static_cast<std::size_t>(from)].T_world_camera.inverse() *
+           graph_.nodes[static_cast<std::size_t>(to)].T_world_camera;
   }
 
   [[nodiscard]] bool closes(const Eigen::Isometry3d& round, int odometry_edges, int loops) const {
@@ -70,7 +71,8 @@ class Judge {
     const double sigma_rad = std::hypot(config_.drift_rad_per_edge * std::sqrt(odometry_edges), config_.loop_sigma_rad * std::sqrt(loops));
     // A turn on the way moves what lies beyond it: about half the way's edges, at a third of a metre each.
     const double lever_m = 0.15 * odometry_edges;
-    const double sigma_m = std::hypot(config_.drift_m_per_edge * std::sqrt(odometry_edges), config_.loop_sigma_m * std::sqrt(loops), sigma_rad * lever_m);
+    const double sigma_m =
+        std::hypot(config_.drift_m_per_edge * std::sqrt(odometry_edges), config_.loop_sigma_m * std::sqrt(loops), sigma_rad * lever_m);
     return turn_rad < config_.gate_sigmas * sigma_rad && round.translation().norm() < config_.gate_sigmas * sigma_m;
   }
 
@@ -98,7 +100,8 @@ std::vector<std::size_t> largestClique(const std::vector<std::vector<char>>& con
     }
     std::vector<std::size_t> clique{seed};
     for (const std::size_t candidate : order) {
-      const bool fits = candidate != seed && std::all_of(clique.begin(), clique.end(), [&](std::size_t member) { return consistent[candidate][member] != 0; });
+      const bool fits = candidate != seed &&
+                        std::all_of(clique.begin(), clique.end(), [&](std::size_t member) { return consistent[candidate][member] != 0; });
       if (fits) {
         clique.push_back(candidate);
       }

@@ -14,7 +14,9 @@ constexpr int kBits = 256;
 constexpr std::size_t kLeafSize = 60;
 constexpr int kNear = 45;  ///< Hamming distance of descriptors that may show the same thing
 
-bool bitOf(const Descriptor& d, int bit) { return ((d[static_cast<std::size_t>(bit / 64)] >> (bit % 64)) & 1U) != 0; }
+bool bitOf(const Descriptor& d, int bit) {
+  return ((d[static_cast<std::size_t>(bit / 64)] >> (bit % 64)) & 1U) != 0;
+}
 
 }  // namespace
 

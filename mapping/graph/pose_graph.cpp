@@ -84,7 +84,8 @@ struct Link {
   Eigen::Isometry3d T_from_to;
 };
 
-std::vector<Link> linksBetweenSubmaps(const KeyframeGraph& graph, const std::vector<char>& believed, const std::vector<MotionPrior>& priors) {
+std::vector<Link> linksBetweenSubmaps(const KeyframeGraph& graph, const std::vector<char>& believed,
+                                      const std::vector<MotionPrior>& priors) {
   std::vector<Link> links;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     if (believed[e] != 0) {
