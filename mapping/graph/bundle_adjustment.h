@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "core/camera/pinhole_camera.h"
 #include "mapping/graph/keyframe_graph.h"
 
@@ -25,6 +28,7 @@ struct BundleAdjustmentConfig {
     visitor("sighting_depth_weight", sighting_depth_weight);
     visitor("readout_sigma_s", readout_sigma_s);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 enum class Readout { kFixed, kRefined };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/camera/pinhole_camera.h"
@@ -23,6 +24,7 @@ struct CovisibilityConfig {
     visitor("max_view_deg", max_view_deg);
     visitor("gate_px", gate_px);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// Looks for each node's view of the landmarks of nodes nearby which tracking did not follow into it, from the optimised poses:

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/camera/rgbd_frame.h"
@@ -48,6 +49,7 @@ struct FrontEndConfig {
     visitor("reuse_overlap", reuse_overlap);
     visitor("max_lost_frames", max_lost_frames);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 enum class TrackingStatus { kTracked, kRelocalised, kLost, kStart };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mapping/graph/keyframe_graph.h"
@@ -22,6 +23,7 @@ struct LoopConsistencyConfig {
     visitor("loop_sigma_rad", loop_sigma_rad);
     visitor("gate_sigmas", gate_sigmas);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// Which loop edges to believe: the largest set found of which every two close a cycle with the odometry between them (Mangelson

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mapping/graph/keyframe_graph.h"
@@ -24,6 +25,7 @@ struct PoseGraphConfig {
     visitor("odometry_sigma_m", odometry_sigma_m);
     visitor("odometry_sigma_rad", odometry_sigma_rad);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// Relative motion from another source (wheel odometry): weak, with a robust kernel.

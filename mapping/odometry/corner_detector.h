@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "core/camera/rgbd_frame.h"
@@ -24,6 +25,7 @@ struct CornerDetectorConfig {
     visitor("depth_window_px", depth_window_px);
     visitor("max_plane_residual", max_plane_residual);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// New landmarks of a keyframe, spread evenly: in each cell that holds no pixel of `occupied`, the strongest corner (Shi & Tomasi,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <string>
 #include <vector>
 
 #include "core/base/enum_table.h"
@@ -35,6 +36,7 @@ struct FeatureConfig {
     visitor("fast_threshold", fast_threshold);
     visitor("max_depth_m", max_depth_m);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// 256 bits. ORB's own (Rublee et al., ICCV 2011), or SIFT's 128 numbers as two bits each (after Zhou et al., "Scalar

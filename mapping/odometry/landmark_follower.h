@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/camera/pinhole_camera.h"
@@ -35,6 +36,7 @@ struct FollowerConfig {
     visitor("min_inliers", min_inliers);
     visitor("min_inlier_ratio", min_inlier_ratio);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// One image to look for landmarks in.
@@ -54,7 +56,7 @@ struct Candidate {
 
 struct [[nodiscard]] FollowResult {
   bool tracked = false;                   ///< enough inliers
-  PoseSolution pose;                      ///< `inlier` is empty here
+  PoseSolution pose;                      ///< `inlier`: one a patch that was found
   std::vector<Observation> observations;  ///< inliers only, in the candidates' order
   int in_view = 0;                        ///< candidates that should have been seen
   int found = 0;                          ///< of these, patches that aligned

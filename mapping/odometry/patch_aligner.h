@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "mapping/odometry/image_pyramid.h"
 
@@ -26,6 +28,7 @@ struct PatchAlignerConfig {
     visitor("coarsest_answer", coarsest_answer);
     visitor("min_eigenvalue", min_eigenvalue);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 struct PatchQuery {

@@ -34,6 +34,7 @@ struct PoseSolverConfig {
     visitor("outlier_sigmas", outlier_sigmas);
     visitor("depth_weight", depth_weight);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 enum class PoseStatus { kTooFewSightings, kDegenerate, kConverged };

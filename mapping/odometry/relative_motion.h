@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/camera/pinhole_camera.h"
@@ -29,6 +30,7 @@ struct RelativeMotionConfig {
     visitor("min_inlier_ratio", min_inlier_ratio);
     visitor("min_spread", min_spread);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 enum class MotionStatus { kTooFewMatches, kTooFewInliers, kTooLittleSpread, kConverged };
