@@ -36,7 +36,7 @@ struct MapConfig {
 struct MapRun {
   int threads = 1;
   std::int64_t seed = 0;
-  std::optional<Eigen::Isometry3d> T_base_camera;  ///< the camera's mount, if it is known
+  std::optional<Eigen::Isometry3d> T_base_camera;  ///< the camera's mount; nothing: that of the recording's calibration, if it has one
   base::ProgressSink progress;
 };
 
@@ -53,6 +53,7 @@ struct [[nodiscard]] MapResult {
 
 /// Builds the metric map of a recorded drive: track → close loops → refine → find the floor → fuse. Writes every file of `map/` into
 /// `map_folder`, which exists and is empty. Throws base::Error.
-MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run, const std::filesystem::path& map_folder);
+MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run,
+                   const std::filesystem::path& map_folder);
 
 }  // namespace oikos::mapping
