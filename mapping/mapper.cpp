@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <mutex>
 
 #include "core/base/atomic_file.h"
 #include "core/base/config.h"
@@ -87,9 +88,21 @@ class Mapper {
 
  private:
   void track() {
+    const auto seed = static_cast<std::uint64_t>(run_.seed);
+    if (config_.kind == FrontEndKind::kPairwise) {
+      feed(PairwiseFrontEnd(recording_.camera(), config_.pairwise, config_.front_end.features, config_.front_end.motion, seed));
+    } else {
+      feed(FrontEnd(recording_.camera(), config_.front_end, images_, seed));
+    }
+    if (drive_.frames.empty()) {
+      throw base::Error(base::ErrorCode::kInput, "no frame could be read");
+    }
+  }
+
+  template <class AnyFrontEnd>
+  void feed(AnyFrontEnd front_end) {
     const int lookahead_threads = std::max(1, run_.threads - 1);
-    recording::FrameStream stream(recording_, {.decode_threads = lookahead_threads});
-    FrontEnd front_end(recording_.camera(), config_.front_end, images_, static_cast<std::uint64_t>(run_.seed));
+    recording::FrameStream stream(recording_, {.capacity = 4 + lookahead_threads, .decode_threads = lookahead_threads});
     while (const auto frame = stream.next()) {
       front_end.add(*frame);
       base::reportProgress(run_.progress,
@@ -97,9 +110,6 @@ class Mapper {
     }
     drive_ = front_end.finish();
     statistics_ = stream.statistics();
-    if (drive_.frames.empty()) {
-      throw base::Error(base::ErrorCode::kInput, "no frame could be read");
-    }
   }
 
   void optimise() {
@@ -120,10 +130,7 @@ class Mapper {
     return {
         recording_.camera(),
         [this](int frame, bool color) { return recording_.read(frame, color ? recording::Channels::kColor : recording::Channels::kGray); },
-        run_.threads,
-        [this](int done, int total) {
-          base::reportProgress(run_.progress, {"fusing the map", done, total});
-        }};
+        run_.threads, run_.progress};
   }
 
   /// Keyframes of the sub-map that the drive began with (what no loop joined to it has no place in its map), or all its frames.
@@ -176,24 +183,38 @@ class Mapper {
 
   void fuse() {
     KeyframeStoreWriter store(folder_ / "keyframes.sqlite", recording_.camera());
-    std::size_t next = 0;
-    const auto storeKeyframe = [&](const camera::RgbdFrame& frame) {
-      while (next < drive_.graph.nodes.size() && (drive_.graph.nodes[next].frame < frame.index || !drive_.graph.nodes[next].keyframe)) {
-        ++next;
+    std::map<int, int> node_of_frame;
+    for (std::size_t n = 0; n < drive_.graph.nodes.size(); ++n) {
+      if (drive_.graph.nodes[n].keyframe) {
+        node_of_frame[drive_.graph.nodes[n].frame] = static_cast<int>(n);
       }
-      if (next == drive_.graph.nodes.size() || drive_.graph.nodes[next].frame != frame.index) {
-        return;
-      }
-      const Node& node = drive_.graph.nodes[next];
-      StoredKeyframe stored{static_cast<int>(next), node.frame, node.stamp_ns, node.T_world_camera, frame.color, frame.depth_m,
-                            drive_.features[next],  {}};
-      for (const int id : node.hosted) {
-        stored.landmarks.push_back(drive_.graph.landmarks[static_cast<std::size_t>(id)]);
-      }
-      store.add(stored);
-    };
-    fused_ = fuseMap(views(), floor_.status == FloorStatus::kFound, fusionInput(), config_.volume, storeKeyframe, folder_);
+    }
+    std::mutex mutex;
+    std::map<int, EncodedPictures> pictures;
+    const ViewObserver observer = {[&](const camera::RgbdFrame& frame) {
+                                     if (node_of_frame.contains(frame.index)) {
+                                       EncodedPictures encoded = encodePictures(frame.color, frame.depth_m);
+                                       const std::lock_guard lock(mutex);
+                                       pictures[frame.index] = std::move(encoded);
+                                     }
+                                   },
+                                   [&](const camera::RgbdFrame& frame) {
+                                     if (const auto node = node_of_frame.find(frame.index); node != node_of_frame.end()) {
+                                       store.add(toStored(node->second), pictures.at(frame.index));
+                                       pictures.erase(frame.index);
+                                     }
+                                   }};
+    fused_ = fuseMap(views(), floor_.status == FloorStatus::kFound, fusionInput(), config_.volume, observer, folder_);
     store.commit();
+  }
+
+  [[nodiscard]] StoredKeyframe toStored(int id) const {
+    const Node& node = drive_.graph.nodes[static_cast<std::size_t>(id)];
+    StoredKeyframe stored{id, node.frame, node.stamp_ns, node.T_world_camera, {}, {}, drive_.features[static_cast<std::size_t>(id)], {}};
+    for (const int landmark : node.hosted) {
+      stored.landmarks.push_back(drive_.graph.landmarks[static_cast<std::size_t>(landmark)]);
+    }
+    return stored;
   }
 
   [[nodiscard]] recording::Trajectory trajectory(const Eigen::Isometry3d& T_camera_tracked) const {

@@ -2,29 +2,44 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/enum_table.h"
 #include "core/base/progress.h"
 #include "core/recording/recording.h"
 #include "mapping/graph/back_end.h"
 #include "mapping/graph/front_end.h"
+#include "mapping/graph/pairwise_front_end.h"
 #include "mapping/volume/map_builder.h"
 
 namespace oikos::mapping {
 
+enum class FrontEndKind {
+  kLandmarks,  ///< landmarks followed from frame to frame
+  kPairwise,   ///< the papers': features matched frame by frame
+};
+constexpr auto enumTable(FrontEndKind) {
+  return std::to_array<base::EnumName<FrontEndKind>>({{FrontEndKind::kLandmarks, "landmarks"}, {FrontEndKind::kPairwise, "pairwise"}});
+}
+
 struct MapConfig {
-  FrontEndConfig front_end;
+  FrontEndKind kind = FrontEndKind::kLandmarks;
+  FrontEndConfig front_end;  ///< features and motion serve both kinds
+  PairwiseConfig pairwise;
   BackEndConfig back_end;
   VolumeConfig volume;
-  int images_in_memory = 48;  ///< keyframe pyramids kept; the others are read again
+  int images_in_memory = 40;  ///< keyframe pyramids kept; the others are read again
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
+    visitor("kind", kind);
     visitor("front_end", front_end);
+    visitor("pairwise", pairwise);
     visitor("back_end", back_end);
     visitor("volume", volume);
     visitor("images_in_memory", images_in_memory);

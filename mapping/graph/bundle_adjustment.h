@@ -8,6 +8,7 @@ namespace oikos::mapping {
 
 struct BundleAdjustmentConfig {
   int max_iterations = 20;
+  double function_tolerance = 5e-4;    ///< a step that lowers the cost by a smaller share is the last
   double pixel_sigma_px = 0.5;         ///< of one sighting at pyramid level 0
   double cauchy_sigmas = 2.0;          ///< robust kernel of sightings
   double host_depth_weight = 1.0;      ///< of the information of the host's reading
@@ -17,6 +18,7 @@ struct BundleAdjustmentConfig {
   template <class Visitor>
   void visit(Visitor&& visitor) {
     visitor("max_iterations", max_iterations);
+    visitor("function_tolerance", function_tolerance);
     visitor("pixel_sigma_px", pixel_sigma_px);
     visitor("cauchy_sigmas", cauchy_sigmas);
     visitor("host_depth_weight", host_depth_weight);
@@ -28,13 +30,13 @@ struct BundleAdjustmentConfig {
 enum class Readout { kFixed, kRefined };
 
 struct [[nodiscard]] BundleAdjustmentResult {
-  bool usable = false;          ///< false: the graph is as it was
+  bool usable = false;  ///< false: the graph is as it was
   int iterations = 0;
   int sightings = 0;
-  double initial_cost = 0.0;    ///< half the sum of squared, robustified, whitened residuals
+  double initial_cost = 0.0;  ///< half the sum of squared, robustified, whitened residuals
   double final_cost = 0.0;
-  double rms_px = 0.0;          ///< reprojection, of the sightings within 3 sigma
-  double readout_s = 0.0;       ///< from the first to the last image row; row y is exposed at stamp + (y / height - 0.5) * readout_s
+  double rms_px = 0.0;     ///< reprojection, of the sightings within 3 sigma
+  double readout_s = 0.0;  ///< from the first to the last image row; row y is exposed at stamp + (y / height - 0.5) * readout_s
 };
 
 /// Global refinement: poses of all nodes (the first of each sub-map fixed) and inverse depths of all landmarks, from reprojection

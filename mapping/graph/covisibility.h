@@ -11,10 +11,10 @@
 namespace oikos::mapping {
 
 struct CovisibilityConfig {
-  int max_partners = 12;        ///< nodes that a node looks for landmarks of, those that should show most first
-  int min_expected = 12;        ///< landmarks of a partner that should be in view
-  double max_view_deg = 50.0;   ///< between the optical axes
-  double gate_px = 4.0;         ///< a patch found farther from where the graph expects it is not the landmark
+  int max_partners = 12;       ///< nodes that a node looks for landmarks of, those that should show most first
+  int min_expected = 12;       ///< landmarks of a partner that should be in view
+  double max_view_deg = 50.0;  ///< between the optical axes
+  double gate_px = 4.0;        ///< a patch found farther from where the graph expects it is not the landmark
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -27,7 +27,7 @@ struct CovisibilityConfig {
 
 /// Looks for each node's view of the landmarks of nodes nearby which tracking did not follow into it, from the optimised poses:
 /// the more two keyframes share, the stiffer the bundle. Appends observations to the nodes; returns how many.
-int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images, const FollowerConfig& follower,
-                             const CovisibilityConfig& config, int threads);
+int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images,
+                             const FollowerConfig& follower, const CovisibilityConfig& config, int threads);
 
 }  // namespace oikos::mapping

@@ -288,14 +288,18 @@ KeyframeStoreWriter::KeyframeStoreWriter(const std::filesystem::path& file, cons
 
 KeyframeStoreWriter::~KeyframeStoreWriter() = default;
 
-void KeyframeStoreWriter::add(const StoredKeyframe& keyframe) {
+EncodedPictures encodePictures(const cv::Mat& color, const cv::Mat& depth_m) {
+  return {encodeColor(color), encodeDepth(depth_m)};
+}
+
+void KeyframeStoreWriter::add(const StoredKeyframe& keyframe, const EncodedPictures& pictures) {
   Statement insert(database_.get(), "INSERT INTO keyframe VALUES(?, ?, ?, ?, ?, ?, ?, ?)", file_.string());
   insert.bind(1, std::int64_t{keyframe.id});
   insert.bind(2, std::int64_t{keyframe.frame});
   insert.bind(3, keyframe.stamp_ns);
   insert.bind(4, encodePose(keyframe.T_map_camera));
-  insert.bind(5, encodeColor(keyframe.color));
-  insert.bind(6, encodeDepth(keyframe.depth_m));
+  insert.bind(5, pictures.color_jpeg);
+  insert.bind(6, pictures.depth_png);
   insert.bind(7, encodeFeatures(keyframe.features));
   insert.bind(8, encodeLandmarks(keyframe.landmarks));
   insert.step();

@@ -20,11 +20,11 @@ constexpr auto enumTable(FeatureType) {
 
 struct FeatureConfig {
   FeatureType type = FeatureType::kSift;
-  int count = 500;                 ///< kept per image, spread evenly (S350)
-  double image_scale = 0.5;        ///< SIFT runs on the image at this scale: a quarter of the time, and coarse places suffice
-  double contrast_threshold = 0.02; ///< SIFT's, of OpenCV
-  int fast_threshold = 12;         ///< ORB's
-  double max_depth_m = 8.0;        ///< features without a reading up to here are dropped
+  int count = 500;                   ///< kept per image, spread evenly (S350)
+  double image_scale = 0.5;          ///< SIFT runs on the image at this scale: a quarter of the time, and coarse places suffice
+  double contrast_threshold = 0.02;  ///< SIFT's, of OpenCV
+  int fast_threshold = 12;           ///< ORB's
+  double max_depth_m = 8.0;          ///< features without a reading up to here are dropped
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
