@@ -68,6 +68,7 @@ class Mapper {
         config_(config),
         run_(run),
         folder_(folder),
+        T_base_camera_(run.T_base_camera ? run.T_base_camera : recording.T_base_camera()),
         images_([this](int frame) { return recording_.read(frame, recording::Channels::kGray).gray; }, config.front_end.pyramid_levels,
                 config.images_in_memory) {}
 
@@ -112,7 +113,7 @@ class Mapper {
   }
 
   void optimise() {
-    odometry_ = OdometryPriors(recording_.findOdometry(), run_.T_base_camera ? run_.T_base_camera : recording_.T_base_camera());
+    odometry_ = OdometryPriors(recording_.findOdometry(), T_base_camera_);
     const BackEndTools tools{recording_.camera(),
                              config_.front_end.follower,
                              images_,
@@ -169,7 +170,7 @@ class Mapper {
   void placeInMap() {
     base::reportProgress(run_.progress, {"looking for the floor", 0, 0});
     floor_ = findFloor(views(), fusionInput(), config_.volume);
-    const Eigen::Isometry3d T_map_world = mapFrame(floor_, optimised_.T_world_frame.front(), run_.T_base_camera);
+    const Eigen::Isometry3d T_map_world = mapFrame(floor_, optimised_.T_world_frame.front(), T_base_camera_);
     for (Node& node : drive_.graph.nodes) {
       node.T_world_camera = T_map_world * node.T_world_camera;
     }
@@ -226,8 +227,8 @@ class Mapper {
 
   void write() {
     recording::writeTrajectory(trajectory(Eigen::Isometry3d::Identity()), folder_ / "trajectory.txt");
-    if (run_.T_base_camera) {
-      recording::writeTrajectory(trajectory(run_.T_base_camera->inverse()), folder_ / "base_trajectory.txt");
+    if (T_base_camera_) {
+      recording::writeTrajectory(trajectory(T_base_camera_->inverse()), folder_ / "base_trajectory.txt");
     }
     writeG2o(drive_.graph, optimised_.believed, folder_ / "graph.g2o");
     base::writeFileAtomically(folder_ / "config.toml", base::writeConfig(config_));
@@ -266,6 +267,7 @@ class Mapper {
   const MapConfig& config_;
   const MapRun& run_;
   const std::filesystem::path& folder_;
+  std::optional<Eigen::Isometry3d> T_base_camera_;
   KeyframeImages images_;
   StageClock clock_;
   recording::StreamStatistics statistics_;

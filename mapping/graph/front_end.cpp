@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/base/error.h"
 #include "mapping/odometry/rotation_alignment.h"
@@ -36,7 +37,9 @@ FrontEnd::FrontEnd(const camera::PinholeCamera& camera, const FrontEndConfig& co
 void FrontEnd::add(const camera::RgbdFrame& frame) {
   Current current{frame, std::make_shared<const ImagePyramid>(frame.gray, config_.pyramid_levels), {}};
   if (reference_ < 0) {
-    startSubmap(current);
+    if (!startSubmap(current)) {
+      record(current, {}, TrackingStatus::kLost);
+    }
     return;
   }
   FollowResult seen = follow(current, predict(current), active_);
@@ -48,8 +51,7 @@ void FrontEnd::add(const camera::RgbdFrame& frame) {
       status = TrackingStatus::kRelocalised;
     }
   }
-  if (status == TrackingStatus::kLost && ++lost_in_a_row_ > config_.max_lost_frames) {
-    startSubmap(current);
+  if (status == TrackingStatus::kLost && ++lost_in_a_row_ > config_.max_lost_frames && startSubmap(current)) {
     return;
   }
   if (status != TrackingStatus::kLost) {
@@ -70,7 +72,11 @@ void FrontEnd::add(const camera::RgbdFrame& frame) {
   previous_ = current.pyramid;
 }
 
-void FrontEnd::startSubmap(const Current& current) {
+/// A frame without enough to follow (a covered lens, the dark) is no place to begin at.
+bool FrontEnd::startSubmap(const Current& current) {
+  if (static_cast<int>(detectCorners(current.frame, {}, config_.corners).size()) < config_.follower.min_inliers) {
+    return false;
+  }
   lost_in_a_row_ = 0;
   active_.clear();
   Current first = current;
@@ -87,6 +93,22 @@ void FrontEnd::startSubmap(const Current& current) {
   seen.pose.T_world_camera = T_world_camera_;
   record(current, seen, TrackingStatus::kStart);
   previous_ = current.pyramid;
+  return true;
+}
+
+FrontEndResult FrontEnd::finish() {
+  if (result_.graph.nodes.empty() && !result_.frames.empty()) {
+    Node node;  // nothing was ever seen
+    node.frame = result_.frames.front().frame;
+    node.stamp_ns = result_.frames.front().stamp_ns;
+    result_.graph.nodes.push_back(std::move(node));
+    result_.features.emplace_back();
+    result_.submaps = 1;
+  }
+  for (TrackedFrame& frame : result_.frames) {
+    frame.reference = std::max(frame.reference, 0);  // lost before the first keyframe
+  }
+  return std::move(result_);
 }
 
 Eigen::Isometry3d FrontEnd::predict(const Current& current) const {
@@ -328,7 +350,9 @@ void FrontEnd::record(const Current& current, const FollowResult& seen, Tracking
   tracked.stamp_ns = current.frame.stamp_ns;
   tracked.status = status;
   tracked.reference = reference_;
-  tracked.T_reference_frame = result_.graph.nodes[static_cast<std::size_t>(reference_)].T_world_camera.inverse() * T_world_camera_;
+  if (reference_ >= 0) {
+    tracked.T_reference_frame = result_.graph.nodes[static_cast<std::size_t>(reference_)].T_world_camera.inverse() * T_world_camera_;
+  }
   if (status != TrackingStatus::kLost) {
     tracked.observations = seen.observations;
     tracked.rms_px = seen.pose.rms_px;

@@ -31,7 +31,7 @@ struct FrontEndConfig {
   int loop_candidates = 4;              ///< places verified per keyframe
   int min_loop_votes = 15;
   double reuse_overlap = 0.6;  ///< share of an old keyframe's landmarks that must be seen again to take it instead of a new one
-  int max_lost_frames = 5;     ///< lost for longer: a new sub-map is begun
+  int max_lost_frames = 5;     ///< lost for longer: a new sub-map is begun where there is enough to follow
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -94,12 +94,13 @@ class FrontEnd {
   FrontEnd(const camera::PinholeCamera& camera, const FrontEndConfig& config, KeyframeImages& images, std::uint64_t seed);
 
   void add(const camera::RgbdFrame& frame);
-  /// The front end is empty afterwards.
-  [[nodiscard]] FrontEndResult finish() { return std::move(result_); }
+  /// Every frame that was added, each on a node; if none could be followed, all are lost and hang on the first. The front end is
+  /// empty afterwards.
+  [[nodiscard]] FrontEndResult finish();
 
  private:
   struct Current;
-  void startSubmap(const Current& current);
+  bool startSubmap(const Current& current);
   [[nodiscard]] Eigen::Isometry3d predict(const Current& current) const;
   [[nodiscard]] FollowResult follow(const Current& current, const Eigen::Isometry3d& T_world_camera,
                                     const std::vector<int>& landmarks) const;

@@ -94,4 +94,12 @@ std::vector<PlaceIndex::Candidate> PlaceIndex::query(const Features& features, i
   return candidates;
 }
 
+std::int64_t PlaceIndex::comparisons(const Features& features) const {
+  std::int64_t count = 0;
+  for (const Descriptor& descriptor : features.descriptor) {
+    count += static_cast<std::int64_t>(branches_[static_cast<std::size_t>(leafOf(descriptor))].entries.size());
+  }
+  return count;
+}
+
 }  // namespace oikos::mapping
