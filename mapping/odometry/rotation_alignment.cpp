@@ -112,6 +112,13 @@ NormalEquations linearise(const SmallImage& previous, const SmallImage& current,
   return n;
 }
 
+/// Whether the pictures say anything about the rotation: plain ones do not.
+bool isObservable(const NormalEquations& n) {
+  constexpr double kLeastChange = 1.0;  // grey values per rad, over all pixels
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(n.H.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues().minCoeff() > kLeastChange * kLeastChange * n.pixels;
+}
+
 }  // namespace
 
 RotationAlignment alignRotation(const ImagePyramid& previous, const ImagePyramid& current, const camera::PinholeCamera& camera,
@@ -129,6 +136,9 @@ RotationAlignment alignRotation(const ImagePyramid& previous, const ImagePyramid
       return result;
     }
     result.rms = std::sqrt(n.cost / n.pixels);
+    if (!isObservable(n)) {
+      return result;
+    }
     Matrix5d H = n.H;
     H.diagonal() *= 1.0 + 1e-6;
     const Vector5d step = -H.ldlt().solve(n.g);
