@@ -102,7 +102,8 @@ NormalEquations linearise(const SmallImage& previous, const SmallImage& current,
       const double weight = std::abs(e) < kHuber ? 1.0 : kHuber / std::abs(e);
       Vector5d J;
       // R exp(w) ray: d(p)/d(w) = -R [ray]x, so e changes by (ray x R^T g) . w
-      J << ray.cross(state.R.transpose() * by_point), -intensity, -1.0;
+      J.head<3>() = ray.cross(state.R.transpose() * by_point);
+      J.tail<2>() << -intensity, -1.0;
       n.H.noalias() += weight * J * J.transpose();
       n.g.noalias() += weight * e * J;
       n.cost += weight * e * e;

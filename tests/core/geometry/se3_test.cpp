@@ -19,7 +19,8 @@ class Se3 : public ::testing::Test {
   Eigen::Vector3d vector(double scale) { return scale * Eigen::Vector3d(normal_(random_), normal_(random_), normal_(random_)); }
   Vector6d twist(double angle_rad) {
     Vector6d xi;
-    xi << vector(1.0), angle_rad * direction();
+    xi.head<3>() = vector(1.0);
+    xi.tail<3>() = angle_rad * direction();
     return xi;
   }
   Eigen::Isometry3d pose() { return expSe3(twist(1.3)); }
