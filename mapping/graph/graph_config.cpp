@@ -60,6 +60,7 @@ std::vector<std::string> BundleAdjustmentConfig::validate() const {
       .atLeast("host_depth_weight", host_depth_weight, 0.0)
       .atLeast("sighting_depth_weight", sighting_depth_weight, 0.0)
       .greater("readout_sigma_s", readout_sigma_s, 0.0)
+      .greater("function_tolerance", function_tolerance, 0.0)
       .messages();
 }
 

@@ -31,6 +31,8 @@ std::vector<cv::KeyPoint> spreadEvenly(std::vector<cv::KeyPoint> keypoints, cons
   }
   const int room = std::max(0, count - static_cast<int>(kept.size()));
   kept.insert(kept.end(), rest.begin(), rest.begin() + std::min<std::ptrdiff_t>(room, static_cast<std::ptrdiff_t>(rest.size())));
+  // Fewer than there are cells: the strongest cells' only.
+  kept.erase(kept.begin() + std::min<std::ptrdiff_t>(count, static_cast<std::ptrdiff_t>(kept.size())), kept.end());
   return kept;
 }
 

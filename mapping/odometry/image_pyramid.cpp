@@ -13,8 +13,11 @@ ImagePyramid::ImagePyramid(const cv::Mat& gray, int max_levels) {
   images_.push_back(gray);
   while (levels() < max_levels && std::min(images_.back().cols, images_.back().rows) >= 48) {
     cv::Mat half;
-    // INTER_AREA by two averages 2 x 2 pixels: the pixel grids then relate as the class comment says.
-    cv::resize(images_.back(), half, cv::Size(images_.back().cols / 2, images_.back().rows / 2), 0.0, 0.0, cv::INTER_AREA);
+    const cv::Size size(images_.back().cols / 2, images_.back().rows / 2);
+    // INTER_AREA by exactly two averages 2 x 2 pixels: the pixel grids then relate as the class comment says. An odd column or row
+    // is left out: shrinking over it would stretch the grid.
+    const cv::Mat even = images_.back()(cv::Rect(0, 0, 2 * size.width, 2 * size.height));
+    cv::resize(even, half, size, 0.0, 0.0, cv::INTER_AREA);
     images_.push_back(half);
   }
 }

@@ -34,6 +34,7 @@ std::vector<std::string> PoseSolverConfig::validate() const {
       .greater("huber_sigmas", huber_sigmas, 0.0)
       .greater("outlier_sigmas", outlier_sigmas, 0.0)
       .atLeast("depth_weight", depth_weight, 0.0)
+      .greater("converged", converged, 0.0)
       .messages();
 }
 

@@ -173,7 +173,9 @@ LevelStatus alignLevel(const Template& t, const cv::Mat& image, const PatchAlign
     squares += window[i] * window[i];
     cross += window[i] * t.value[i];
   }
-  const float deviation = std::sqrt(std::max(squares - sum * sum / kPixels, 1e-6F));
+  // A plain window has nothing but rounding to correlate with.
+  constexpr float kLeastDeviation = 0.5F;  // grey values
+  const float deviation = std::sqrt(std::max(squares - sum * sum / kPixels, kLeastDeviation * kLeastDeviation * kPixels));
   correlation = static_cast<double>(cross / (deviation * std::max(t.deviation, 1e-3F)));
   return LevelStatus::kConverged;
 }

@@ -102,7 +102,8 @@ NormalEquations linearise(const SmallImage& previous, const SmallImage& current,
       const double weight = std::abs(e) < kHuber ? 1.0 : kHuber / std::abs(e);
       Vector5d J;
       // R exp(w) ray: d(p)/d(w) = -R [ray]x, so e changes by (ray x R^T g) . w
-      J << ray.cross(state.R.transpose() * by_point), -intensity, -1.0;
+      J.head<3>() = ray.cross(state.R.transpose() * by_point);
+      J.tail<2>() << -intensity, -1.0;
       n.H.noalias() += weight * J * J.transpose();
       n.g.noalias() += weight * e * J;
       n.cost += weight * e * e;
@@ -110,6 +111,13 @@ NormalEquations linearise(const SmallImage& previous, const SmallImage& current,
     }
   }
   return n;
+}
+
+/// Whether the pictures say anything about the rotation: plain ones do not.
+bool isObservable(const NormalEquations& n) {
+  constexpr double kLeastChange = 1.0;  // grey values per rad, over all pixels
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(n.H.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues().minCoeff() > kLeastChange * kLeastChange * n.pixels;
 }
 
 }  // namespace
@@ -129,6 +137,9 @@ RotationAlignment alignRotation(const ImagePyramid& previous, const ImagePyramid
       return result;
     }
     result.rms = std::sqrt(n.cost / n.pixels);
+    if (!isObservable(n)) {
+      return result;
+    }
     Matrix5d H = n.H;
     H.diagonal() *= 1.0 + 1e-6;
     const Vector5d step = -H.ldlt().solve(n.g);

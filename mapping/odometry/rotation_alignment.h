@@ -9,7 +9,7 @@
 namespace oikos::mapping {
 
 struct [[nodiscard]] RotationAlignment {
-  bool converged = false;
+  bool converged = false;  ///< the search has settled; whether on the same place, `rms` and what follows must tell
   Eigen::Matrix3d R_previous_current = Eigen::Matrix3d::Identity();
   double rms = 0.0;  ///< grey values, over the overlap
 };

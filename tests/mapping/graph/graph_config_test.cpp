@@ -69,7 +69,8 @@ TEST(GraphConfig, BundleAdjustment) {
                                                   {"host_depth_weight", "-1", "must be >= 0"},
                                                   {"host_depth_weight", "0", ""},
                                                   {"sighting_depth_weight", "nan", "must be >= 0"},
-                                                  {"readout_sigma_s", "0", "must be > 0"}});
+                                                  {"readout_sigma_s", "0", "must be > 0"},
+                                                  {"function_tolerance", "0", "must be > 0"}});
 }
 
 }  // namespace
