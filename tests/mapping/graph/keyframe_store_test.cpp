@@ -50,10 +50,14 @@ StoredKeyframe sampleKeyframe(int id) {
   return k;
 }
 
+void put(KeyframeStoreWriter& writer, const StoredKeyframe& keyframe) {
+  writer.add(keyframe, encodePictures(keyframe.color, keyframe.depth_m));
+}
+
 void writeStore(const std::filesystem::path& file, int keyframes) {
   KeyframeStoreWriter writer(file, kCamera);
   for (int id = 0; id < keyframes; ++id) {
-    writer.add(sampleKeyframe(3 * id));
+    put(writer, sampleKeyframe(3 * id));
   }
   writer.commit();
 }
@@ -117,7 +121,7 @@ TEST(KeyframeStore, AKeyframeWithoutFeaturesOrLandmarksComesBack) {
   bare.features = {};
   bare.landmarks.clear();
   KeyframeStoreWriter writer(folder.path() / "k.sqlite", kCamera);
-  writer.add(bare);
+  put(writer, bare);
   writer.commit();
   const KeyframeStore store = readKeyframeStore(folder.path() / "k.sqlite");
   ASSERT_EQ(store.keyframes.size(), 1U);
@@ -132,7 +136,7 @@ TEST(KeyframeStore, DepthBeyondWhatCanBeKeptIsNoReading) {
   k.depth_m.at<float>(0, 2) = -1.0F;
   k.depth_m.at<float>(0, 3) = 13.0F;
   KeyframeStoreWriter writer(folder.path() / "k.sqlite", kCamera);
-  writer.add(k);
+  put(writer, k);
   writer.commit();
   const cv::Mat depth_m = readKeyframeStore(folder.path() / "k.sqlite").keyframes[0].depth_m;
   EXPECT_TRUE(std::isnan(depth_m.at<float>(0, 1)));
@@ -230,8 +234,8 @@ TEST(KeyframeStore, AFolderThatIsNotThereIsAnIoError) {
 TEST(KeyframeStore, TwoKeyframesOfOneIdAreRefused) {
   const test::TemporaryFolder folder;
   KeyframeStoreWriter writer(folder.path() / "k.sqlite", kCamera);
-  writer.add(sampleKeyframe(1));
-  EXPECT_THROW(writer.add(sampleKeyframe(1)), base::Error);
+  put(writer, sampleKeyframe(1));
+  EXPECT_THROW(put(writer, sampleKeyframe(1)), base::Error);
 }
 
 /// Files may not grow past a few pages: what a full disk looks like from inside.
@@ -276,7 +280,7 @@ TEST(KeyframeStore, ADiskThatFillsBeforeTheCommitIsAnIoError) {
     cv::randu(large.color, 0, 256);
     for (int id = 0; id < 40; ++id) {
       large.id = id;
-      writer.add(large);
+      put(writer, large);
     }
     ADD_FAILURE() << "40 noisy pictures fit into 16 kB";
   });
