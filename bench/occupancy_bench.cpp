@@ -43,10 +43,10 @@ std::vector<mapping::OccupancyScan> kitchenScans(const std::string& folder, int 
 }
 
 std::vector<mapping::OccupancyScan> roomScans(const mapping::OccupancyConfig& config) {
-  const tests::AnalyticRoom room = tests::AnalyticRoom::furnished();
+  const test::AnalyticRoom room = test::AnalyticRoom::furnished();
   const camera::PinholeCamera camera{640, 480, 525.0, 525.0, 319.5, 239.5};
   std::vector<mapping::OccupancyScan> scans;
-  for (const Eigen::Isometry3d& T_map_camera : tests::lookAround(20, 0.3, 1.3, 0.4)) {
+  for (const Eigen::Isometry3d& T_map_camera : test::lookAround(20, 0.3, 1.3, 0.4)) {
     const camera::RgbdFrame frame = room.render(camera, T_map_camera);
     scans.push_back(mapping::makeScan({frame, camera, T_map_camera}, config));
   }

@@ -53,7 +53,8 @@ void addFrames(const MapFacts& facts, MapReport& report) {
     report.frames.push_back(f);
     report.trajectory.push_back({frame.stamp_ns, facts.optimised.T_world_frame[i]});
     // Both begin at the same pose: what differs is drift.
-    const Eigen::Isometry3d T_map_odometry = facts.optimised.T_world_frame.front() * facts.optimised.T_world_frame_odometry.front().inverse();
+    const Eigen::Isometry3d T_map_odometry =
+        facts.optimised.T_world_frame.front() * facts.optimised.T_world_frame_odometry.front().inverse();
     report.trajectory_before_loops.push_back({frame.stamp_ns, T_map_odometry * facts.optimised.T_world_frame_odometry[i]});
   }
 }
@@ -76,15 +77,15 @@ void addLoops(const MapFacts& facts, MapReport& report) {
     loop.inliers = edge.inliers;
     loop.residual_px = edge.rms_px;
     constexpr double kDownWeighted = 0.25;
-    loop.verdict = facts.optimised.believed[e] == 0                               ? LoopVerdict::kRejectedByConsistency
+    loop.verdict = facts.optimised.believed[e] == 0                            ? LoopVerdict::kRejectedByConsistency
                    : facts.optimised.pose_graph.loop_weight[e] < kDownWeighted ? LoopVerdict::kDownWeighted
-                                                                                  : LoopVerdict::kAccepted;
+                                                                               : LoopVerdict::kAccepted;
     report.loops.push_back(loop);
   }
   for (const LoopAttempt& attempt : facts.drive.loop_attempts) {
     if (attempt.verdict == LoopCheck::kGeometryDisagrees) {
-      report.loops.push_back({position.at(attempt.frame), position.at(graph.nodes[static_cast<std::size_t>(attempt.from)].frame), attempt.inliers,
-                              attempt.rms_px, LoopVerdict::kRejectedByGeometry});
+      report.loops.push_back({position.at(attempt.frame), position.at(graph.nodes[static_cast<std::size_t>(attempt.from)].frame),
+                              attempt.inliers, attempt.rms_px, LoopVerdict::kRejectedByGeometry});
     }
   }
 }
@@ -142,7 +143,8 @@ MapReport makeReport(const MapFacts& facts) {
   report.relocalisations = facts.drive.relocalisations;
   addLoops(facts, report);
   report.optimisation = optimisationFacts(facts.optimised);
-  report.floor = {facts.floor.status == FloorStatus::kFound ? FloorSighting::kFound : FloorSighting::kNotInSight, facts.floor.camera_height_m};
+  report.floor = {facts.floor.status == FloorStatus::kFound ? FloorSighting::kFound : FloorSighting::kNotInSight,
+                  facts.floor.camera_height_m};
   report.volume = volumeFacts(facts);
   report.grid = gridPicture(facts.fused.grid);
   return report;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <mutex>
 
 #include "core/base/atomic_file.h"
 #include "core/base/config.h"
@@ -43,7 +44,8 @@ class StageClock {
 };
 
 /// z and tilt from the floor; x, y and heading from the base at the first frame, where the mount is known.
-Eigen::Isometry3d mapFrame(const FloorResult& floor, const Eigen::Isometry3d& T_world_first_camera, const std::optional<Eigen::Isometry3d>& T_base_camera) {
+Eigen::Isometry3d mapFrame(const FloorResult& floor, const Eigen::Isometry3d& T_world_first_camera,
+                           const std::optional<Eigen::Isometry3d>& T_base_camera) {
   if (!T_base_camera) {
     return floor.T_map_world;
   }
@@ -66,6 +68,7 @@ class Mapper {
         config_(config),
         run_(run),
         folder_(folder),
+        T_base_camera_(run.T_base_camera ? run.T_base_camera : recording.T_base_camera()),
         images_([this](int frame) { return recording_.read(frame, recording::Channels::kGray).gray; }, config.front_end.pyramid_levels,
                 config.images_in_memory) {}
 
@@ -85,34 +88,49 @@ class Mapper {
 
  private:
   void track() {
-    const int lookahead_threads = std::max(1, run_.threads - 1);
-    recording::FrameStream stream(recording_, {.decode_threads = lookahead_threads});
-    FrontEnd front_end(recording_.camera(), config_.front_end, images_, static_cast<std::uint64_t>(run_.seed));
-    while (const auto frame = stream.next()) {
-      front_end.add(*frame);
-      base::reportProgress(run_.progress, {"tracking", stream.statistics().read + stream.statistics().unreadable, stream.statistics().listed});
+    const auto seed = static_cast<std::uint64_t>(run_.seed);
+    if (config_.kind == FrontEndKind::kPairwise) {
+      feed(PairwiseFrontEnd(recording_.camera(), config_.pairwise, config_.front_end.features, config_.front_end.motion, seed));
+    } else {
+      feed(FrontEnd(recording_.camera(), config_.front_end, images_, seed));
     }
-    drive_ = front_end.finish();
-    statistics_ = stream.statistics();
     if (drive_.frames.empty()) {
       throw base::Error(base::ErrorCode::kInput, "no frame could be read");
     }
   }
 
+  template <class AnyFrontEnd>
+  void feed(AnyFrontEnd front_end) {
+    const int lookahead_threads = std::max(1, run_.threads - 1);
+    recording::FrameStream stream(recording_, {.capacity = 4 + lookahead_threads, .decode_threads = lookahead_threads});
+    while (const auto frame = stream.next()) {
+      front_end.add(*frame);
+      base::reportProgress(run_.progress,
+                           {"tracking", stream.statistics().read + stream.statistics().unreadable, stream.statistics().listed});
+    }
+    drive_ = front_end.finish();
+    statistics_ = stream.statistics();
+  }
+
   void optimise() {
-    odometry_ = OdometryPriors(recording_.findOdometry(), run_.T_base_camera ? run_.T_base_camera : recording_.T_base_camera());
-    const BackEndTools tools{recording_.camera(), config_.front_end.follower, images_, [this](int f) { return recording_.read(f, recording::Channels::kGray); },
-                             config_.front_end.pyramid_levels, run_.threads, run_.progress};
+    odometry_ = OdometryPriors(recording_.findOdometry(), T_base_camera_);
+    const BackEndTools tools{recording_.camera(),
+                             config_.front_end.follower,
+                             images_,
+                             [this](int f) { return recording_.read(f, recording::Channels::kGray); },
+                             config_.front_end.pyramid_levels,
+                             run_.threads,
+                             run_.progress};
     const std::vector<MotionPrior> priors = odometry_.betweenNodes(drive_.graph);
     optimised_ = optimiseDrive(drive_, priors, config_.back_end, tools);
     coasting_ = odometry_.carryLostFrames(drive_.frames, optimised_.T_world_frame);
   }
 
   [[nodiscard]] FusionInput fusionInput() const {
-    return {recording_.camera(),
-            [this](int frame, bool color) { return recording_.read(frame, color ? recording::Channels::kColor : recording::Channels::kGray); },
-            run_.threads,
-            [this](int done, int total) { base::reportProgress(run_.progress, {"fusing the map", done, total}); }};
+    return {
+        recording_.camera(),
+        [this](int frame, bool color) { return recording_.read(frame, color ? recording::Channels::kColor : recording::Channels::kGray); },
+        run_.threads, run_.progress};
   }
 
   /// Keyframes of the sub-map that the drive began with (what no loop joined to it has no place in its map), or all its frames.
@@ -142,7 +160,8 @@ class Mapper {
     for (const TrackedFrame& frame : drive_.frames) {
       ++frames[drive_.graph.nodes[static_cast<std::size_t>(frame.reference)].submap];
     }
-    const int submap = std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    const int submap =
+        std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
     const auto node = std::find_if(drive_.graph.nodes.begin(), drive_.graph.nodes.end(), [&](const Node& n) { return n.submap == submap; });
     return static_cast<int>(node - drive_.graph.nodes.begin());
   }
@@ -151,7 +170,7 @@ class Mapper {
   void placeInMap() {
     base::reportProgress(run_.progress, {"looking for the floor", 0, 0});
     floor_ = findFloor(views(), fusionInput(), config_.volume);
-    const Eigen::Isometry3d T_map_world = mapFrame(floor_, optimised_.T_world_frame.front(), run_.T_base_camera);
+    const Eigen::Isometry3d T_map_world = mapFrame(floor_, optimised_.T_world_frame.front(), T_base_camera_);
     for (Node& node : drive_.graph.nodes) {
       node.T_world_camera = T_map_world * node.T_world_camera;
     }
@@ -164,23 +183,38 @@ class Mapper {
 
   void fuse() {
     KeyframeStoreWriter store(folder_ / "keyframes.sqlite", recording_.camera());
-    std::size_t next = 0;
-    const auto storeKeyframe = [&](const camera::RgbdFrame& frame) {
-      while (next < drive_.graph.nodes.size() && (drive_.graph.nodes[next].frame < frame.index || !drive_.graph.nodes[next].keyframe)) {
-        ++next;
+    std::map<int, int> node_of_frame;
+    for (std::size_t n = 0; n < drive_.graph.nodes.size(); ++n) {
+      if (drive_.graph.nodes[n].keyframe) {
+        node_of_frame[drive_.graph.nodes[n].frame] = static_cast<int>(n);
       }
-      if (next == drive_.graph.nodes.size() || drive_.graph.nodes[next].frame != frame.index) {
-        return;
-      }
-      const Node& node = drive_.graph.nodes[next];
-      StoredKeyframe stored{static_cast<int>(next), node.frame, node.stamp_ns, node.T_world_camera, frame.color, frame.depth_m, drive_.features[next], {}};
-      for (const int id : node.hosted) {
-        stored.landmarks.push_back(drive_.graph.landmarks[static_cast<std::size_t>(id)]);
-      }
-      store.add(stored);
-    };
-    fused_ = fuseMap(views(), floor_.status == FloorStatus::kFound, fusionInput(), config_.volume, storeKeyframe, folder_);
+    }
+    std::mutex mutex;
+    std::map<int, EncodedPictures> pictures;
+    const ViewObserver observer = {[&](const camera::RgbdFrame& frame) {
+                                     if (node_of_frame.contains(frame.index)) {
+                                       EncodedPictures encoded = encodePictures(frame.color, frame.depth_m);
+                                       const std::lock_guard lock(mutex);
+                                       pictures[frame.index] = std::move(encoded);
+                                     }
+                                   },
+                                   [&](const camera::RgbdFrame& frame) {
+                                     if (const auto node = node_of_frame.find(frame.index); node != node_of_frame.end()) {
+                                       store.add(toStored(node->second), pictures.at(frame.index));
+                                       pictures.erase(frame.index);
+                                     }
+                                   }};
+    fused_ = fuseMap(views(), floor_.status == FloorStatus::kFound, fusionInput(), config_.volume, observer, folder_);
     store.commit();
+  }
+
+  [[nodiscard]] StoredKeyframe toStored(int id) const {
+    const Node& node = drive_.graph.nodes[static_cast<std::size_t>(id)];
+    StoredKeyframe stored{id, node.frame, node.stamp_ns, node.T_world_camera, {}, {}, drive_.features[static_cast<std::size_t>(id)], {}};
+    for (const int landmark : node.hosted) {
+      stored.landmarks.push_back(drive_.graph.landmarks[static_cast<std::size_t>(landmark)]);
+    }
+    return stored;
   }
 
   [[nodiscard]] recording::Trajectory trajectory(const Eigen::Isometry3d& T_camera_tracked) const {
@@ -193,8 +227,8 @@ class Mapper {
 
   void write() {
     recording::writeTrajectory(trajectory(Eigen::Isometry3d::Identity()), folder_ / "trajectory.txt");
-    if (run_.T_base_camera) {
-      recording::writeTrajectory(trajectory(run_.T_base_camera->inverse()), folder_ / "base_trajectory.txt");
+    if (T_base_camera_) {
+      recording::writeTrajectory(trajectory(T_base_camera_->inverse()), folder_ / "base_trajectory.txt");
     }
     writeG2o(drive_.graph, optimised_.believed, folder_ / "graph.g2o");
     base::writeFileAtomically(folder_ / "config.toml", base::writeConfig(config_));
@@ -219,7 +253,8 @@ class Mapper {
     result.skipped_frames = statistics_.unreadable;
     result.lost_frames = static_cast<int>(
         std::count_if(drive_.frames.begin(), drive_.frames.end(), [](const TrackedFrame& f) { return f.status == TrackingStatus::kLost; }));
-    result.keyframes = static_cast<int>(std::count_if(drive_.graph.nodes.begin(), drive_.graph.nodes.end(), [](const Node& n) { return n.keyframe; }));
+    result.keyframes =
+        static_cast<int>(std::count_if(drive_.graph.nodes.begin(), drive_.graph.nodes.end(), [](const Node& n) { return n.keyframe; }));
     for (std::size_t e = 0; e < drive_.graph.edges.size(); ++e) {
       result.loops += drive_.graph.edges[e].kind == EdgeKind::kLoop && optimised_.believed[e] != 0 ? 1 : 0;
     }
@@ -232,6 +267,7 @@ class Mapper {
   const MapConfig& config_;
   const MapRun& run_;
   const std::filesystem::path& folder_;
+  std::optional<Eigen::Isometry3d> T_base_camera_;
   KeyframeImages images_;
   StageClock clock_;
   recording::StreamStatistics statistics_;
@@ -245,9 +281,12 @@ class Mapper {
 
 }  // namespace
 
-std::vector<std::string> MapConfig::validate() const { return base::ConfigRules().atLeast("images_in_memory", images_in_memory, 2).messages(); }
+std::vector<std::string> MapConfig::validate() const {
+  return base::ConfigRules().atLeast("images_in_memory", images_in_memory, 2).messages();
+}
 
-MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run, const std::filesystem::path& map_folder) {
+MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run,
+                   const std::filesystem::path& map_folder) {
   return Mapper(recording, config, run, map_folder).build();
 }
 

@@ -2,29 +2,44 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/enum_table.h"
 #include "core/base/progress.h"
 #include "core/recording/recording.h"
 #include "mapping/graph/back_end.h"
 #include "mapping/graph/front_end.h"
+#include "mapping/graph/pairwise_front_end.h"
 #include "mapping/volume/map_builder.h"
 
 namespace oikos::mapping {
 
+enum class FrontEndKind {
+  kLandmarks,  ///< landmarks followed from frame to frame
+  kPairwise,   ///< the papers': features matched frame by frame
+};
+constexpr auto enumTable(FrontEndKind) {
+  return std::to_array<base::EnumName<FrontEndKind>>({{FrontEndKind::kLandmarks, "landmarks"}, {FrontEndKind::kPairwise, "pairwise"}});
+}
+
 struct MapConfig {
-  FrontEndConfig front_end;
+  FrontEndKind kind = FrontEndKind::kLandmarks;
+  FrontEndConfig front_end;  ///< features and motion serve both kinds
+  PairwiseConfig pairwise;
   BackEndConfig back_end;
   VolumeConfig volume;
-  int images_in_memory = 48;  ///< keyframe pyramids kept; the others are read again
+  int images_in_memory = 40;  ///< keyframe pyramids kept; the others are read again
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
+    visitor("kind", kind);
     visitor("front_end", front_end);
+    visitor("pairwise", pairwise);
     visitor("back_end", back_end);
     visitor("volume", volume);
     visitor("images_in_memory", images_in_memory);
@@ -36,7 +51,7 @@ struct MapConfig {
 struct MapRun {
   int threads = 1;
   std::int64_t seed = 0;
-  std::optional<Eigen::Isometry3d> T_base_camera;  ///< the camera's mount, if it is known
+  std::optional<Eigen::Isometry3d> T_base_camera;  ///< the camera's mount; nothing: that of the recording's calibration, if it has one
   base::ProgressSink progress;
 };
 
@@ -53,6 +68,7 @@ struct [[nodiscard]] MapResult {
 
 /// Builds the metric map of a recorded drive: track → close loops → refine → find the floor → fuse. Writes every file of `map/` into
 /// `map_folder`, which exists and is empty. Throws base::Error.
-MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run, const std::filesystem::path& map_folder);
+MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run,
+                   const std::filesystem::path& map_folder);
 
 }  // namespace oikos::mapping

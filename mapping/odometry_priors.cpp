@@ -19,7 +19,8 @@ OdometryPriors::OdometryPriors(std::optional<recording::Trajectory> T_odom_base,
 
 std::optional<Eigen::Isometry3d> OdometryPriors::findCameraPose(std::int64_t stamp_ns) const {
   constexpr std::int64_t kMaxGap_ns = 500'000'000;
-  const auto after = std::lower_bound(odometry_.begin(), odometry_.end(), stamp_ns, [](const auto& pose, std::int64_t t) { return pose.stamp_ns < t; });
+  const auto after =
+      std::lower_bound(odometry_.begin(), odometry_.end(), stamp_ns, [](const auto& pose, std::int64_t t) { return pose.stamp_ns < t; });
   if (after == odometry_.end()) {
     return std::nullopt;
   }
@@ -46,7 +47,8 @@ std::vector<MotionPrior> OdometryPriors::betweenNodes(const KeyframeGraph& graph
   return priors;
 }
 
-std::vector<char> OdometryPriors::carryLostFrames(const std::vector<TrackedFrame>& frames, std::vector<Eigen::Isometry3d>& T_world_frame) const {
+std::vector<char> OdometryPriors::carryLostFrames(const std::vector<TrackedFrame>& frames,
+                                                  std::vector<Eigen::Isometry3d>& T_world_frame) const {
   std::vector<char> carried(frames.size(), 0);
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < frames.size(); ++i) {

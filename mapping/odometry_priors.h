@@ -21,7 +21,8 @@ class OdometryPriors {
   [[nodiscard]] std::vector<MotionPrior> betweenNodes(const KeyframeGraph& graph) const;
 
   /// Moves the poses of lost frames on from the last frame that was not lost; true for those that were.
-  [[nodiscard]] std::vector<char> carryLostFrames(const std::vector<TrackedFrame>& frames, std::vector<Eigen::Isometry3d>& T_world_frame) const;
+  [[nodiscard]] std::vector<char> carryLostFrames(const std::vector<TrackedFrame>& frames,
+                                                  std::vector<Eigen::Isometry3d>& T_world_frame) const;
 
  private:
   /// Interpolated; nothing outside the recorded time or in a gap of more than half a second.

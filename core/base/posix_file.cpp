@@ -36,7 +36,7 @@ void throwErrno(const std::string& action, const std::filesystem::path& where) {
 FileDescriptor openFile(const std::filesystem::path& file, int flags) {
   FileDescriptor descriptor(::open(file.c_str(), flags | O_CLOEXEC, kPermissions));
   if (descriptor.number() < 0) {
-    throwErrno("cannot be opened", file);
+    throwErrno("cannot open", file);
   }
   return descriptor;
 }

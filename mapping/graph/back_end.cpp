@@ -68,7 +68,7 @@ class Refiner {
   /// A camera that reads out row by row leaves residuals that a read-out time takes away. One that hardly helps is not believed:
   /// where motion is slow it takes up other errors.
   void tryReadout() {
-    constexpr int kTrialIterations = 6;
+    constexpr int kTrialIterations = 4;
     KeyframeGraph trial = drive_.graph;
     BundleAdjustmentConfig short_run = config_.bundle;
     short_run.max_iterations = kTrialIterations;
@@ -104,7 +104,8 @@ std::vector<std::string> BackEndConfig::validate() const {
   return base::ConfigRules().between("min_readout_gain", min_readout_gain, 0.0, 1.0).messages();
 }
 
-BackEndResult optimiseDrive(FrontEndResult& drive, const std::vector<MotionPrior>& priors, const BackEndConfig& config, const BackEndTools& tools) {
+BackEndResult optimiseDrive(FrontEndResult& drive, const std::vector<MotionPrior>& priors, const BackEndConfig& config,
+                            const BackEndTools& tools) {
   BackEndResult result;
   base::reportProgress(tools.progress, {"closing loops", 0, 0});
   result.T_world_frame_odometry = posesFromReferences(drive.graph, drive.frames);

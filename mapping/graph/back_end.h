@@ -18,9 +18,9 @@ struct BackEndConfig {
   PoseGraphConfig pose_graph;
   CovisibilityConfig covisibility;
   BundleAdjustmentConfig bundle;
-  bool bundle_adjustment = true;    ///< false: the pose graph's answer stands
-  bool rolling_shutter = true;      ///< whether a read-out time may be estimated
-  double min_readout_gain = 0.18;   ///< share of the cost that a read-out time must take away to be believed
+  bool bundle_adjustment = true;   ///< false: the pose graph's answer stands
+  bool rolling_shutter = true;     ///< whether a read-out time may be estimated
+  double min_readout_gain = 0.18;  ///< share of the cost that a read-out time must take away to be believed
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -51,9 +51,9 @@ struct BackEndResult {
   std::vector<char> believed;                             ///< one an edge
   PoseGraphResult pose_graph;
   BundleAdjustmentResult bundle;
-  double readout_s = 0.0;                                 ///< 0: not believed
-  int submaps_left = 0;                                   ///< that no loop joined to another
-  int frames_recovered = 0;                               ///< lost at first, found afterwards
+  double readout_s = 0.0;    ///< 0: not believed
+  int submaps_left = 0;      ///< that no loop joined to another
+  int frames_recovered = 0;  ///< lost at first, found afterwards
 };
 
 /// From the front end's graph to the best poses of all frames: mutually consistent loops → pose graph → covisible sightings → bundle

@@ -179,7 +179,7 @@ ceres::Solver::Options solverOptions(const ceres::Problem& problem, Parameters& 
   options.linear_solver_type = ceres::SPARSE_SCHUR;
   options.max_num_iterations = config.max_iterations;
   options.num_threads = 1;  // more threads sum in another order
-  options.function_tolerance = 1e-4;
+  options.function_tolerance = config.function_tolerance;
   options.logging_type = ceres::SILENT;
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (double& inverse_depth : parameters.inverse_depths) {

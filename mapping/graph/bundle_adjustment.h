@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "core/camera/pinhole_camera.h"
 #include "mapping/graph/keyframe_graph.h"
 
@@ -8,6 +11,7 @@ namespace oikos::mapping {
 
 struct BundleAdjustmentConfig {
   int max_iterations = 20;
+  double function_tolerance = 5e-4;    ///< a step that lowers the cost by a smaller share is the last
   double pixel_sigma_px = 0.5;         ///< of one sighting at pyramid level 0
   double cauchy_sigmas = 2.0;          ///< robust kernel of sightings
   double host_depth_weight = 1.0;      ///< of the information of the host's reading
@@ -17,24 +21,26 @@ struct BundleAdjustmentConfig {
   template <class Visitor>
   void visit(Visitor&& visitor) {
     visitor("max_iterations", max_iterations);
+    visitor("function_tolerance", function_tolerance);
     visitor("pixel_sigma_px", pixel_sigma_px);
     visitor("cauchy_sigmas", cauchy_sigmas);
     visitor("host_depth_weight", host_depth_weight);
     visitor("sighting_depth_weight", sighting_depth_weight);
     visitor("readout_sigma_s", readout_sigma_s);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 enum class Readout { kFixed, kRefined };
 
 struct [[nodiscard]] BundleAdjustmentResult {
-  bool usable = false;          ///< false: the graph is as it was
+  bool usable = false;  ///< false: the graph is as it was
   int iterations = 0;
   int sightings = 0;
-  double initial_cost = 0.0;    ///< half the sum of squared, robustified, whitened residuals
+  double initial_cost = 0.0;  ///< half the sum of squared, robustified, whitened residuals
   double final_cost = 0.0;
-  double rms_px = 0.0;          ///< reprojection, of the sightings within 3 sigma
-  double readout_s = 0.0;       ///< from the first to the last image row; row y is exposed at stamp + (y / height - 0.5) * readout_s
+  double rms_px = 0.0;     ///< reprojection, of the sightings within 3 sigma
+  double readout_s = 0.0;  ///< from the first to the last image row; row y is exposed at stamp + (y / height - 0.5) * readout_s
 };
 
 /// Global refinement: poses of all nodes (the first of each sub-map fixed) and inverse depths of all landmarks, from reprojection

@@ -40,7 +40,8 @@ class Matcher {
                                 graph_.nodes[static_cast<std::size_t>(partner.node)].T_world_camera, host.get()});
         }
       }
-      for (const Observation& o : findLandmarks({&camera_, target.get(), nullptr}, candidates, node.T_world_camera, config_.gate_px, follower_)) {
+      for (const Observation& o :
+           findLandmarks({&camera_, target.get(), nullptr}, candidates, node.T_world_camera, config_.gate_px, follower_)) {
         found.push_back(o);
       }
     }
@@ -89,8 +90,8 @@ class Matcher {
 
 }  // namespace
 
-int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images, const FollowerConfig& follower,
-                             const CovisibilityConfig& config, int threads) {
+int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images,
+                             const FollowerConfig& follower, const CovisibilityConfig& config, int threads) {
   const Matcher matcher(graph, camera, images, follower, config);
   std::vector<std::vector<Observation>> found(graph.nodes.size());
   base::parallelFor(static_cast<int>(graph.nodes.size()), threads, [&](int n) { found[static_cast<std::size_t>(n)] = matcher.match(n); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/camera/pinhole_camera.h"
@@ -11,10 +12,10 @@
 namespace oikos::mapping {
 
 struct CovisibilityConfig {
-  int max_partners = 12;        ///< nodes that a node looks for landmarks of, those that should show most first
-  int min_expected = 12;        ///< landmarks of a partner that should be in view
-  double max_view_deg = 50.0;   ///< between the optical axes
-  double gate_px = 4.0;         ///< a patch found farther from where the graph expects it is not the landmark
+  int max_partners = 12;       ///< nodes that a node looks for landmarks of, those that should show most first
+  int min_expected = 12;       ///< landmarks of a partner that should be in view
+  double max_view_deg = 50.0;  ///< between the optical axes
+  double gate_px = 4.0;        ///< a patch found farther from where the graph expects it is not the landmark
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -23,11 +24,12 @@ struct CovisibilityConfig {
     visitor("max_view_deg", max_view_deg);
     visitor("gate_px", gate_px);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// Looks for each node's view of the landmarks of nodes nearby which tracking did not follow into it, from the optimised poses:
 /// the more two keyframes share, the stiffer the bundle. Appends observations to the nodes; returns how many.
-int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images, const FollowerConfig& follower,
-                             const CovisibilityConfig& config, int threads);
+int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images,
+                             const FollowerConfig& follower, const CovisibilityConfig& config, int threads);
 
 }  // namespace oikos::mapping

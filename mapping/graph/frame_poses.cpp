@@ -11,7 +11,9 @@ namespace oikos::mapping {
 
 namespace {
 
-double secondsBetween(const TrackedFrame& a, const TrackedFrame& b) { return 1e-9 * static_cast<double>(b.stamp_ns - a.stamp_ns); }
+double secondsBetween(const TrackedFrame& a, const TrackedFrame& b) {
+  return 1e-9 * static_cast<double>(b.stamp_ns - a.stamp_ns);
+}
 
 Eigen::Vector3d pointInWorld(const KeyframeGraph& graph, const Landmark& landmark, const RollingShutterCamera& camera) {
   const Node& host = graph.nodes[static_cast<std::size_t>(landmark.host)];
@@ -48,13 +50,14 @@ std::vector<geometry::Vector6d> velocitiesOf(const std::vector<TrackedFrame>& fr
   std::vector<geometry::Vector6d> velocities(frames.size(), geometry::Vector6d::Zero());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto usable = [&](std::size_t a, std::size_t b) {
-      return frames[a].status != TrackingStatus::kLost && frames[b].status != TrackingStatus::kLost && frames[b].status != TrackingStatus::kStart &&
-             secondsBetween(frames[a], frames[b]) < max_gap_s;
+      return frames[a].status != TrackingStatus::kLost && frames[b].status != TrackingStatus::kLost &&
+             frames[b].status != TrackingStatus::kStart && secondsBetween(frames[a], frames[b]) < max_gap_s;
     };
     const std::size_t before = i > 0 && usable(i - 1, i) ? i - 1 : i;
     const std::size_t after = i + 1 < frames.size() && usable(i, i + 1) ? i + 1 : i;
     if (before != after) {
-      velocities[i] = geometry::logSe3(T_world_frame[before].inverse() * T_world_frame[after]) / secondsBetween(frames[before], frames[after]);
+      velocities[i] =
+          geometry::logSe3(T_world_frame[before].inverse() * T_world_frame[after]) / secondsBetween(frames[before], frames[after]);
     }
   }
   return velocities;
@@ -72,8 +75,9 @@ void setNodeVelocities(KeyframeGraph& graph, const std::vector<TrackedFrame>& fr
   }
 }
 
-std::vector<Eigen::Isometry3d> solveFramePoses(const KeyframeGraph& graph, const std::vector<TrackedFrame>& frames, const RollingShutterCamera& camera,
-                                               const std::vector<geometry::Vector6d>& velocities, double pixel_sigma_px, int threads) {
+std::vector<Eigen::Isometry3d> solveFramePoses(const KeyframeGraph& graph, const std::vector<TrackedFrame>& frames,
+                                               const RollingShutterCamera& camera, const std::vector<geometry::Vector6d>& velocities,
+                                               double pixel_sigma_px, int threads) {
   std::vector<Eigen::Isometry3d> poses = posesFromReferences(graph, frames);
   base::parallelFor(static_cast<int>(frames.size()), threads, [&](int index) {
     const auto i = static_cast<std::size_t>(index);

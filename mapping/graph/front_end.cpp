@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/base/error.h"
 #include "mapping/odometry/rotation_alignment.h"
@@ -36,7 +37,9 @@ FrontEnd::FrontEnd(const camera::PinholeCamera& camera, const FrontEndConfig& co
 void FrontEnd::add(const camera::RgbdFrame& frame) {
   Current current{frame, std::make_shared<const ImagePyramid>(frame.gray, config_.pyramid_levels), {}};
   if (reference_ < 0) {
-    startSubmap(current);
+    if (!startSubmap(current)) {
+      record(current, {}, TrackingStatus::kLost);
+    }
     return;
   }
   FollowResult seen = follow(current, predict(current), active_);
@@ -48,8 +51,7 @@ void FrontEnd::add(const camera::RgbdFrame& frame) {
       status = TrackingStatus::kRelocalised;
     }
   }
-  if (status == TrackingStatus::kLost && ++lost_in_a_row_ > config_.max_lost_frames) {
-    startSubmap(current);
+  if (status == TrackingStatus::kLost && ++lost_in_a_row_ > config_.max_lost_frames && startSubmap(current)) {
     return;
   }
   if (status != TrackingStatus::kLost) {
@@ -70,7 +72,11 @@ void FrontEnd::add(const camera::RgbdFrame& frame) {
   previous_ = current.pyramid;
 }
 
-void FrontEnd::startSubmap(const Current& current) {
+/// A frame without enough to follow (a covered lens, the dark) is no place to begin at.
+bool FrontEnd::startSubmap(const Current& current) {
+  if (static_cast<int>(detectCorners(current.frame, {}, config_.corners).size()) < config_.follower.min_inliers) {
+    return false;
+  }
   lost_in_a_row_ = 0;
   active_.clear();
   Current first = current;
@@ -87,6 +93,22 @@ void FrontEnd::startSubmap(const Current& current) {
   seen.pose.T_world_camera = T_world_camera_;
   record(current, seen, TrackingStatus::kStart);
   previous_ = current.pyramid;
+  return true;
+}
+
+FrontEndResult FrontEnd::finish() {
+  if (result_.graph.nodes.empty() && !result_.frames.empty()) {
+    Node node;  // nothing was ever seen
+    node.frame = result_.frames.front().frame;
+    node.stamp_ns = result_.frames.front().stamp_ns;
+    result_.graph.nodes.push_back(std::move(node));
+    result_.features.emplace_back();
+    result_.submaps = 1;
+  }
+  for (TrackedFrame& frame : result_.frames) {
+    frame.reference = std::max(frame.reference, 0);  // lost before the first keyframe
+  }
+  return std::move(result_);
 }
 
 Eigen::Isometry3d FrontEnd::predict(const Current& current) const {
@@ -138,7 +160,8 @@ std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const 
   const std::vector<FeatureMatch> matches = matchFeatures(result_.features[old], *current.features);
   const std::uint64_t seed = seed_ ^ (static_cast<std::uint64_t>(current.frame.index) << 32U) ^ static_cast<std::uint64_t>(candidate.place);
   const RelativeMotion motion = estimateMotion(result_.features[old], *current.features, matches, camera_, config_.motion, seed);
-  LoopAttempt attempt{candidate.place, current.frame.index, candidate.votes, static_cast<int>(motion.inlier.size()), motion.rms_px, LoopCheck::kTooFewMatches};
+  LoopAttempt attempt{candidate.place, current.frame.index,      candidate.votes, static_cast<int>(motion.inlier.size()),
+                      motion.rms_px,   LoopCheck::kTooFewMatches};
   std::optional<Revisit> revisit;
   if (motion.status == MotionStatus::kConverged) {
     const std::vector<int> landmarks = landmarksOf(neighbourhood(candidate.place, 1));
@@ -149,10 +172,10 @@ std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const 
       attempt.inliers = seen.pose.inliers;
       attempt.rms_px = seen.pose.rms_px;
       const std::vector<int> own = landmarksOf({candidate.place});
-      const auto again = std::count_if(seen.observations.begin(), seen.observations.end(), [&](const Observation& o) {
-        return std::binary_search(own.begin(), own.end(), o.landmark);
-      });
-      revisit = Revisit{candidate.place, std::move(seen), static_cast<double>(again) / std::max<double>(1.0, static_cast<double>(own.size()))};
+      const auto again = std::count_if(seen.observations.begin(), seen.observations.end(),
+                                       [&](const Observation& o) { return std::binary_search(own.begin(), own.end(), o.landmark); });
+      revisit =
+          Revisit{candidate.place, std::move(seen), static_cast<double>(again) / std::max<double>(1.0, static_cast<double>(own.size()))};
     }
   } else if (motion.status != MotionStatus::kTooFewMatches) {
     attempt.verdict = LoopCheck::kGeometryDisagrees;
@@ -207,7 +230,8 @@ void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
       }
     }
   }
-  const auto best = std::max_element(revisits.begin(), revisits.end(), [](const Revisit& a, const Revisit& b) { return a.overlap < b.overlap; });
+  const auto best =
+      std::max_element(revisits.begin(), revisits.end(), [](const Revisit& a, const Revisit& b) { return a.overlap < b.overlap; });
   const bool reuse = best != revisits.end() && best->overlap >= config_.reuse_overlap;
   const int parent = reference_;
   const int node = addNode(current, seen.pose.T_world_camera, !reuse);
@@ -326,7 +350,9 @@ void FrontEnd::record(const Current& current, const FollowResult& seen, Tracking
   tracked.stamp_ns = current.frame.stamp_ns;
   tracked.status = status;
   tracked.reference = reference_;
-  tracked.T_reference_frame = result_.graph.nodes[static_cast<std::size_t>(reference_)].T_world_camera.inverse() * T_world_camera_;
+  if (reference_ >= 0) {
+    tracked.T_reference_frame = result_.graph.nodes[static_cast<std::size_t>(reference_)].T_world_camera.inverse() * T_world_camera_;
+  }
   if (status != TrackingStatus::kLost) {
     tracked.observations = seen.observations;
     tracked.rms_px = seen.pose.rms_px;

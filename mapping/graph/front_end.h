@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/camera/rgbd_frame.h"
@@ -23,14 +24,14 @@ struct FrontEndConfig {
   FollowerConfig follower;
   RelativeMotionConfig motion;
   int pyramid_levels = 5;
-  double keyframe_overlap = 0.7;      ///< share of the landmarks seen at the last keyframe; below it a new one is due (S44)
-  double keyframe_rotation_deg = 20.0; ///< and when the view has turned by more than this
-  double keyframe_parallax = 0.25;    ///< and when the camera has moved by more than this share of the median depth
-  int neighbourhood = 3;              ///< keyframes this many edges away lend their landmarks
-  int loop_candidates = 4;            ///< places verified per keyframe
+  double keyframe_overlap = 0.7;        ///< share of the landmarks seen at the last keyframe; below it a new one is due (S44)
+  double keyframe_rotation_deg = 20.0;  ///< and when the view has turned by more than this
+  double keyframe_parallax = 0.25;      ///< and when the camera has moved by more than this share of the median depth
+  int neighbourhood = 3;                ///< keyframes this many edges away lend their landmarks
+  int loop_candidates = 4;              ///< places verified per keyframe
   int min_loop_votes = 15;
-  double reuse_overlap = 0.6;         ///< share of an old keyframe's landmarks that must be seen again to take it instead of a new one
-  int max_lost_frames = 5;            ///< lost for longer: a new sub-map is begun
+  double reuse_overlap = 0.6;  ///< share of an old keyframe's landmarks that must be seen again to take it instead of a new one
+  int max_lost_frames = 5;     ///< lost for longer: a new sub-map is begun where there is enough to follow
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -48,6 +49,7 @@ struct FrontEndConfig {
     visitor("reuse_overlap", reuse_overlap);
     visitor("max_lost_frames", max_lost_frames);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 enum class TrackingStatus { kTracked, kRelocalised, kLost, kStart };
@@ -92,14 +94,16 @@ class FrontEnd {
   FrontEnd(const camera::PinholeCamera& camera, const FrontEndConfig& config, KeyframeImages& images, std::uint64_t seed);
 
   void add(const camera::RgbdFrame& frame);
-  /// The front end is empty afterwards.
-  [[nodiscard]] FrontEndResult finish() { return std::move(result_); }
+  /// Every frame that was added, each on a node; if none could be followed, all are lost and hang on the first. The front end is
+  /// empty afterwards.
+  [[nodiscard]] FrontEndResult finish();
 
  private:
   struct Current;
-  void startSubmap(const Current& current);
+  bool startSubmap(const Current& current);
   [[nodiscard]] Eigen::Isometry3d predict(const Current& current) const;
-  [[nodiscard]] FollowResult follow(const Current& current, const Eigen::Isometry3d& T_world_camera, const std::vector<int>& landmarks) const;
+  [[nodiscard]] FollowResult follow(const Current& current, const Eigen::Isometry3d& T_world_camera,
+                                    const std::vector<int>& landmarks) const;
   [[nodiscard]] std::optional<FollowResult> recover(Current& current);
   [[nodiscard]] bool keyframeDue(const FollowResult& seen) const;
   bool borrowFromNeighbours(const Current& current, FollowResult& seen);
@@ -121,8 +125,8 @@ class FrontEnd {
   std::uint64_t seed_;
   FrontEndResult result_;
   PlaceIndex places_;
-  std::vector<int> active_;         ///< landmarks looked for in the next frame
-  int reference_ = -1;              ///< node whose landmarks are seen most
+  std::vector<int> active_;  ///< landmarks looked for in the next frame
+  int reference_ = -1;       ///< node whose landmarks are seen most
   int seen_at_keyframe_ = 0;
   int lost_in_a_row_ = 0;
   Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity();

@@ -2,11 +2,14 @@
 #include "mapping/graph/g2o_file.h"
 
 #include <array>
-#include <charconv>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -28,12 +31,15 @@ std::string poseText(const Eigen::Isometry3d& T) {
 }
 
 /// g2o's rotation error is the quaternion's vector part, half the angle: its information is four times that of the angle.
+double informationScale(int row, int column) {
+  return (row >= 3 ? 2.0 : 1.0) * (column >= 3 ? 2.0 : 1.0);
+}
+
 std::string informationText(const geometry::Matrix6d& information) {
   std::string text;
   for (int row = 0; row < 6; ++row) {
     for (int column = row; column < 6; ++column) {
-      const double scale = (row >= 3 ? 2.0 : 1.0) * (column >= 3 ? 2.0 : 1.0);
-      text += ' ' + base::toText(scale * 0.5 * (information(row, column) + information(column, row)));
+      text += ' ' + base::toText(informationScale(row, column) * 0.5 * (information(row, column) + information(column, row)));
     }
   }
   return text;
@@ -44,12 +50,22 @@ class LineReader {
   LineReader(const std::string& line, std::string where) : words_(line), where_(std::move(where)) { words_ >> tag; }
 
   double number() {
-    std::string word;
-    const auto value = words_ >> word ? base::findNumber(word) : std::nullopt;
+    const auto [word, value] = next();
     if (!value) {
-      throw base::Error(base::ErrorCode::kInput, tag + ": '" + word + "' found, a number expected", where_);
+      fail("'" + word + "' found, a number expected");
+    }
+    if (!std::isfinite(*value)) {
+      fail("'" + word + "' found, all numbers must be finite");
     }
     return *value;
+  }
+
+  int id() {
+    const auto [word, value] = next();
+    if (!value || *value < 0.0 || *value > std::numeric_limits<int>::max() || *value != std::floor(*value)) {
+      fail("'" + word + "' found, an id expected: a whole number from 0 on");
+    }
+    return static_cast<int>(*value);
   }
 
   Eigen::Isometry3d pose() {
@@ -59,24 +75,46 @@ class LineReader {
     }
     const auto T = geometry::poseFromNumbers(numbers);
     if (!T) {
-      throw base::Error(base::ErrorCode::kInput, tag + ": the quaternion must have norm 1 and all numbers must be finite", where_);
+      fail("the quaternion must have norm 1 and all numbers must be finite");
     }
     return *T;
   }
 
+  [[noreturn]] void fail(const std::string& what) const { throw base::Error(base::ErrorCode::kInput, tag + ": " + what, where_); }
+
   std::string tag;
 
  private:
+  std::pair<std::string, std::optional<double>> next() {
+    std::string word;
+    words_ >> word;
+    return {word, base::findNumber(word)};
+  }
+
   std::istringstream words_;
   std::string where_;
 };
 
-int nodeOf(const std::map<int, int>& position, double id, const std::string& where) {
-  const auto found = position.find(static_cast<int>(id));
+int readNode(LineReader& reader, const std::map<int, int>& position) {
+  const int id = reader.id();
+  const auto found = position.find(id);
   if (found == position.end()) {
-    throw base::Error(base::ErrorCode::kInput, "edge to vertex " + base::toText(id) + ", which is not in the file above it", where);
+    reader.fail("vertex " + std::to_string(id) + " is not in the file above it");
   }
   return found->second;
+}
+
+Edge readEdge(LineReader& reader, const std::map<int, int>& position) {
+  Edge edge;
+  edge.from = readNode(reader, position);
+  edge.to = readNode(reader, position);
+  edge.T_from_to = reader.pose();
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      edge.information(row, column) = edge.information(column, row) = reader.number() / informationScale(row, column);
+    }
+  }
+  return edge;
 }
 
 }  // namespace
@@ -95,7 +133,8 @@ void writeG2o(const KeyframeGraph& graph, const std::vector<char>& believed, con
       const Edge& edge = graph.edges[e];
       const Eigen::Isometry3d T_from_to = graph.nodes[static_cast<std::size_t>(edge.from)].T_world_camera.inverse() *
                                           graph.nodes[static_cast<std::size_t>(edge.to)].T_world_camera;
-      text += "EDGE_SE3:QUAT " + std::to_string(edge.from) + ' ' + std::to_string(edge.to) + poseText(T_from_to) + informationText(edge.information) + '\n';
+      text += "EDGE_SE3:QUAT " + std::to_string(edge.from) + ' ' + std::to_string(edge.to) + poseText(T_from_to) +
+              informationText(edge.information) + '\n';
     }
   }
   base::writeFileAtomically(file, text);
@@ -110,20 +149,13 @@ KeyframeGraph readG2o(const std::filesystem::path& file) {
     const std::string where = file.string() + ':' + std::to_string(number);
     LineReader reader(line, where);
     if (reader.tag == "VERTEX_SE3:QUAT") {
-      position[static_cast<int>(reader.number())] = static_cast<int>(graph.nodes.size());
+      const int id = reader.id();
+      if (!position.emplace(id, static_cast<int>(graph.nodes.size())).second) {
+        reader.fail("vertex " + std::to_string(id) + " twice");
+      }
       graph.nodes.emplace_back().T_world_camera = reader.pose();
     } else if (reader.tag == "EDGE_SE3:QUAT") {
-      Edge edge;
-      edge.from = nodeOf(position, reader.number(), where);
-      edge.to = nodeOf(position, reader.number(), where);
-      edge.T_from_to = reader.pose();
-      for (int row = 0; row < 6; ++row) {
-        for (int column = row; column < 6; ++column) {
-          const double scale = (row >= 3 ? 2.0 : 1.0) * (column >= 3 ? 2.0 : 1.0);
-          edge.information(row, column) = edge.information(column, row) = reader.number() / scale;
-        }
-      }
-      graph.edges.push_back(edge);
+      graph.edges.push_back(readEdge(reader, position));
     }
   }
   return graph;

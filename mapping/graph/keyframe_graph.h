@@ -12,10 +12,10 @@ namespace oikos::mapping {
 
 /// A frame whose pose the optimisation estimates: a keyframe, or a bridge, a frame that ties two stretches of the drive together.
 struct Node {
-  int frame = -1;              ///< position in the recording
+  int frame = -1;  ///< position in the recording
   std::int64_t stamp_ns = 0;
-  int submap = 0;              ///< stretches that no measurement joins have different numbers
-  bool keyframe = true;        ///< false: a bridge; it hosts no landmarks and is not fused into the map
+  int submap = 0;        ///< stretches that no measurement joins have different numbers
+  bool keyframe = true;  ///< false: a bridge; it hosts no landmarks and is not fused into the map
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   geometry::Vector6d velocity = geometry::Vector6d::Zero();  ///< body twist (m/s, rad/s) while the image was read out
   std::vector<int> hosted;                                   ///< landmarks

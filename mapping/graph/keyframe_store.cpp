@@ -3,14 +3,19 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <utility>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/geometry/pose_numbers.h"
 
 namespace oikos::mapping {
 
@@ -18,6 +23,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
+constexpr const char* kFormat = "oikos-keyframes";
 constexpr int kVersion = 1;
 constexpr double kDepthUnitsPerMetre = 5000.0;
 constexpr const char* kSchema =
@@ -100,6 +106,8 @@ class Statement {
     check(sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr));
   }
   ~Statement() { sqlite3_finalize(statement_); }
+  Statement(Statement&& other) noexcept
+      : database_(other.database_), where_(std::move(other.where_)), statement_(std::exchange(other.statement_, nullptr)) {}
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
 
@@ -107,7 +115,8 @@ class Statement {
   void bind(int index, double value) { check(sqlite3_bind_double(statement_, index, value)); }
   void bind(int index, const char* text) { check(sqlite3_bind_text(statement_, index, text, -1, SQLITE_TRANSIENT)); }
   void bind(int index, const std::vector<unsigned char>& blob) {
-    check(sqlite3_bind_blob64(statement_, index, blob.empty() ? reinterpret_cast<const unsigned char*>("") : blob.data(), blob.size(), SQLITE_TRANSIENT));
+    check(sqlite3_bind_blob64(statement_, index, blob.empty() ? reinterpret_cast<const unsigned char*>("") : blob.data(), blob.size(),
+                              SQLITE_TRANSIENT));
   }
   /// True while there is a row.
   bool step() {
@@ -119,6 +128,10 @@ class Statement {
   }
   [[nodiscard]] std::int64_t integer(int column) const { return sqlite3_column_int64(statement_, column); }
   [[nodiscard]] double real(int column) const { return sqlite3_column_double(statement_, column); }
+  [[nodiscard]] std::string text(int column) const {
+    const auto* characters = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    return characters == nullptr ? std::string() : std::string(characters);
+  }
   [[nodiscard]] std::vector<unsigned char> blob(int column) const {
     const auto* begin = static_cast<const unsigned char*>(sqlite3_column_blob(statement_, column));
     const int size = sqlite3_column_bytes(statement_, column);
@@ -153,7 +166,9 @@ void putMeta(sqlite3* database, const std::filesystem::path& file, const char* k
 template <class Row>
 std::vector<Row> fromBlob(const std::vector<unsigned char>& blob, const std::string& where) {
   if (blob.size() % sizeof(Row) != 0) {
-    throw base::Error(base::ErrorCode::kInput, "a blob of " + std::to_string(blob.size()) + " bytes, a multiple of " + std::to_string(sizeof(Row)) + " expected", where);
+    throw base::Error(base::ErrorCode::kInput,
+                      "a blob of " + std::to_string(blob.size()) + " bytes, a multiple of " + std::to_string(sizeof(Row)) + " expected",
+                      where);
   }
   std::vector<Row> rows(blob.size() / sizeof(Row));
   if (!rows.empty()) {
@@ -182,18 +197,26 @@ cv::Mat decodeDepth(const std::vector<unsigned char>& bytes, const std::string& 
   return depth_m;
 }
 
+Eigen::Isometry3d decodePose(const std::vector<double>& numbers, const std::string& where) {
+  std::array<double, 7> seven{};
+  if (numbers.size() != seven.size()) {
+    throw base::Error(base::ErrorCode::kInput, "a pose of " + std::to_string(numbers.size()) + " numbers, 7 expected", where);
+  }
+  std::copy(numbers.begin(), numbers.end(), seven.begin());
+  const auto T_map_camera = geometry::poseFromNumbers(seven);
+  if (!T_map_camera) {
+    throw base::Error(base::ErrorCode::kInput, "a pose whose quaternion has not norm 1, or whose numbers are not finite", where);
+  }
+  return *T_map_camera;
+}
+
 StoredKeyframe readRow(const Statement& row, const std::string& file) {
   StoredKeyframe k;
   k.id = static_cast<int>(row.integer(0));
   const std::string where = file + ": keyframe " + std::to_string(k.id);
   k.frame = static_cast<int>(row.integer(1));
   k.stamp_ns = row.integer(2);
-  const std::vector<double> pose = fromBlob<double>(row.blob(3), where);
-  if (pose.size() != 7) {
-    throw base::Error(base::ErrorCode::kInput, "a pose of " + std::to_string(pose.size()) + " numbers, 7 expected", where);
-  }
-  k.T_map_camera.linear() = Eigen::Quaterniond(pose[6], pose[3], pose[4], pose[5]).normalized().toRotationMatrix();
-  k.T_map_camera.translation() = Eigen::Vector3d(pose[0], pose[1], pose[2]);
+  k.T_map_camera = decodePose(fromBlob<double>(row.blob(3), where), where);
   k.color = decodeImage(row.blob(4), cv::IMREAD_COLOR, CV_8UC3, where);
   k.depth_m = decodeDepth(row.blob(5), where);
   for (const FeatureRow& f : fromBlob<FeatureRow>(row.blob(6), where)) {
@@ -202,23 +225,45 @@ StoredKeyframe readRow(const Statement& row, const std::string& file) {
     k.features.descriptor.push_back({f.descriptor[0], f.descriptor[1], f.descriptor[2], f.descriptor[3]});
   }
   for (const LandmarkRow& l : fromBlob<LandmarkRow>(row.blob(7), where)) {
-    k.landmarks.push_back({k.id, {l.pixel[0], l.pixel[1]}, l.inverse_depth, l.inverse_depth, l.sigma, {l.inverse_depth_gradient[0], l.inverse_depth_gradient[1]}});
+    k.landmarks.push_back({k.id,
+                           {l.pixel[0], l.pixel[1]},
+                           l.inverse_depth,
+                           l.inverse_depth,
+                           l.sigma,
+                           {l.inverse_depth_gradient[0], l.inverse_depth_gradient[1]}});
   }
   return k;
 }
 
-double metaNumber(sqlite3* database, const std::string& where, const char* key) {
+/// The statement at the one row that has this key.
+Statement findMeta(sqlite3* database, const std::string& where, const char* key) {
   Statement select(database, "SELECT value FROM meta WHERE key = ?", where);
   select.bind(1, key);
   if (!select.step()) {
     throw base::Error(base::ErrorCode::kInput, std::string("no '") + key + "' in table meta: not a keyframe store", where);
   }
-  return select.real(0);
+  return select;
+}
+
+double metaNumber(sqlite3* database, const std::string& where, const char* key) {
+  return findMeta(database, where, key).real(0);
+}
+
+void checkFormat(sqlite3* database, const std::string& where) {
+  if (const std::string format = findMeta(database, where, "format").text(0); format != kFormat) {
+    throw base::Error(base::ErrorCode::kInput, "format '" + format + "', '" + kFormat + "' expected", where);
+  }
+  if (const double version = metaNumber(database, where, "version"); version > kVersion) {
+    throw base::Error(base::ErrorCode::kInput,
+                      "version " + base::toText(version) + ", this program reads up to " + std::to_string(kVersion), where);
+  }
 }
 
 }  // namespace
 
-void KeyframeStoreWriter::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+void KeyframeStoreWriter::Close::operator()(sqlite3* database) const {
+  sqlite3_close(database);
+}
 
 KeyframeStoreWriter::KeyframeStoreWriter(const std::filesystem::path& file, const camera::PinholeCamera& camera) : file_(file) {
   sqlite3* opened = nullptr;
@@ -230,7 +275,7 @@ KeyframeStoreWriter::KeyframeStoreWriter(const std::filesystem::path& file, cons
   // The folder that holds the file is exchanged as a whole: no journal is needed, and none may be left behind.
   execute(opened, "PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; PRAGMA cache_size=-1024; BEGIN;", file_);
   execute(opened, kSchema, file_);
-  putMeta(opened, file_, "format", "oikos-keyframes");
+  putMeta(opened, file_, "format", kFormat);
   putMeta(opened, file_, "version", std::int64_t{kVersion});
   putMeta(opened, file_, "width_px", std::int64_t{camera.width});
   putMeta(opened, file_, "height_px", std::int64_t{camera.height});
@@ -243,20 +288,26 @@ KeyframeStoreWriter::KeyframeStoreWriter(const std::filesystem::path& file, cons
 
 KeyframeStoreWriter::~KeyframeStoreWriter() = default;
 
-void KeyframeStoreWriter::add(const StoredKeyframe& keyframe) {
+EncodedPictures encodePictures(const cv::Mat& color, const cv::Mat& depth_m) {
+  return {encodeColor(color), encodeDepth(depth_m)};
+}
+
+void KeyframeStoreWriter::add(const StoredKeyframe& keyframe, const EncodedPictures& pictures) {
   Statement insert(database_.get(), "INSERT INTO keyframe VALUES(?, ?, ?, ?, ?, ?, ?, ?)", file_.string());
   insert.bind(1, std::int64_t{keyframe.id});
   insert.bind(2, std::int64_t{keyframe.frame});
   insert.bind(3, keyframe.stamp_ns);
   insert.bind(4, encodePose(keyframe.T_map_camera));
-  insert.bind(5, encodeColor(keyframe.color));
-  insert.bind(6, encodeDepth(keyframe.depth_m));
+  insert.bind(5, pictures.color_jpeg);
+  insert.bind(6, pictures.depth_png);
   insert.bind(7, encodeFeatures(keyframe.features));
   insert.bind(8, encodeLandmarks(keyframe.landmarks));
   insert.step();
 }
 
-void KeyframeStoreWriter::commit() { execute(database_.get(), "COMMIT;", file_); }
+void KeyframeStoreWriter::commit() {
+  execute(database_.get(), "COMMIT;", file_);
+}
 
 KeyframeStore readKeyframeStore(const std::filesystem::path& file) {
   sqlite3* opened = nullptr;
@@ -266,14 +317,16 @@ KeyframeStore readKeyframeStore(const std::filesystem::path& file) {
     throw base::Error(base::ErrorCode::kIo, sqlite3_errstr(code), file.string());
   }
   const std::string where = file.string();
-  if (const double version = metaNumber(opened, where, "version"); version > kVersion) {
-    throw base::Error(base::ErrorCode::kInput, "version " + std::to_string(static_cast<int>(version)) + ", this program reads up to " + std::to_string(kVersion), where);
-  }
+  checkFormat(opened, where);
   KeyframeStore store;
-  store.camera = {static_cast<int>(metaNumber(opened, where, "width_px")), static_cast<int>(metaNumber(opened, where, "height_px")),
-                  metaNumber(opened, where, "fx_px"), metaNumber(opened, where, "fy_px"), metaNumber(opened, where, "cx_px"),
+  store.camera = {static_cast<int>(metaNumber(opened, where, "width_px")),
+                  static_cast<int>(metaNumber(opened, where, "height_px")),
+                  metaNumber(opened, where, "fx_px"),
+                  metaNumber(opened, where, "fy_px"),
+                  metaNumber(opened, where, "cx_px"),
                   metaNumber(opened, where, "cy_px")};
-  Statement rows(opened, "SELECT id, frame, stamp_ns, t_map_camera, color_jpeg, depth_png, features, landmarks FROM keyframe ORDER BY id", where);
+  Statement rows(opened, "SELECT id, frame, stamp_ns, t_map_camera, color_jpeg, depth_png, features, landmarks FROM keyframe ORDER BY id",
+                 where);
   while (rows.step()) {
     store.keyframes.push_back(readRow(rows, where));
   }

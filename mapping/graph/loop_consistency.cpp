@@ -44,12 +44,19 @@ class OdometryForest {
   std::vector<int> depth_;
 };
 
+/// A loop's claim, from the sub-map with the lower number to the other, whichever way it was found.
+struct Claim {
+  int from;
+  int to;
+  Eigen::Isometry3d T_from_to;
+};
+
 class Judge {
  public:
   Judge(const KeyframeGraph& graph, const LoopConsistencyConfig& config) : graph_(graph), config_(config), forest_(graph) {}
 
   /// Does the way a.from → a.to → (odometry) → b.to → b.from → (odometry) → a.from come back to where it began?
-  [[nodiscard]] bool consistent(const Edge& a, const Edge& b) const {
+  [[nodiscard]] bool consistent(const Claim& a, const Claim& b) const {
     const Eigen::Isometry3d round = a.T_from_to * between(a.to, b.to) * b.T_from_to.inverse() * between(b.from, a.from);
     return closes(round, forest_.distance(a.to, b.to) + forest_.distance(a.from, b.from), 2);
   }
@@ -58,11 +65,16 @@ class Judge {
     return submap(a.from) == submap(a.to) && closes(a.T_from_to * between(a.to, a.from), forest_.distance(a.from, a.to), 1);
   }
 
+  [[nodiscard]] Claim claimOf(const Edge& e) const {
+    return submap(e.from) <= submap(e.to) ? Claim{e.from, e.to, e.T_from_to} : Claim{e.to, e.from, e.T_from_to.inverse()};
+  }
+
   [[nodiscard]] int submap(int node) const { return graph_.nodes[static_cast<std::size_t>(node)].submap; }
 
  private:
   [[nodiscard]] Eigen::Isometry3d between(int from, int to) const {
-    return graph_.nodes[static_cast<std::size_t>(from)].T_world_camera.inverse() * graph_.nodes[static_cast<std::size_t>(to)].T_world_camera;
+    return graph_.nodes[static_cast<std::size_t>(from)].T_world_camera.inverse() *
+           graph_.nodes[static_cast<std::size_t>(to)].T_world_camera;
   }
 
   [[nodiscard]] bool closes(const Eigen::Isometry3d& round, int odometry_edges, int loops) const {
@@ -70,7 +82,8 @@ class Judge {
     const double sigma_rad = std::hypot(config_.drift_rad_per_edge * std::sqrt(odometry_edges), config_.loop_sigma_rad * std::sqrt(loops));
     // A turn on the way moves what lies beyond it: about half the way's edges, at a third of a metre each.
     const double lever_m = 0.15 * odometry_edges;
-    const double sigma_m = std::hypot(config_.drift_m_per_edge * std::sqrt(odometry_edges), config_.loop_sigma_m * std::sqrt(loops), sigma_rad * lever_m);
+    const double sigma_m =
+        std::hypot(config_.drift_m_per_edge * std::sqrt(odometry_edges), config_.loop_sigma_m * std::sqrt(loops), sigma_rad * lever_m);
     return turn_rad < config_.gate_sigmas * sigma_rad && round.translation().norm() < config_.gate_sigmas * sigma_m;
   }
 
@@ -98,7 +111,8 @@ std::vector<std::size_t> largestClique(const std::vector<std::vector<char>>& con
     }
     std::vector<std::size_t> clique{seed};
     for (const std::size_t candidate : order) {
-      const bool fits = candidate != seed && std::all_of(clique.begin(), clique.end(), [&](std::size_t member) { return consistent[candidate][member] != 0; });
+      const bool fits = candidate != seed &&
+                        std::all_of(clique.begin(), clique.end(), [&](std::size_t member) { return consistent[candidate][member] != 0; });
       if (fits) {
         clique.push_back(candidate);
       }
@@ -121,14 +135,15 @@ std::vector<char> consistentEdges(const KeyframeGraph& graph, const LoopConsiste
     if (edge.kind == EdgeKind::kOdometry) {
       believed[e] = 1;
     } else {
-      groups[{judge.submap(edge.from), judge.submap(edge.to)}].push_back(e);
+      groups[std::minmax({judge.submap(edge.from), judge.submap(edge.to)})].push_back(e);
     }
   }
   for (const auto& [submaps, edges] : groups) {
     std::vector<std::vector<char>> consistent(edges.size(), std::vector<char>(edges.size(), 0));
     for (std::size_t i = 0; i < edges.size(); ++i) {
       for (std::size_t j = i + 1; j < edges.size(); ++j) {
-        consistent[i][j] = consistent[j][i] = judge.consistent(graph.edges[edges[i]], graph.edges[edges[j]]) ? 1 : 0;
+        consistent[i][j] = consistent[j][i] =
+            judge.consistent(judge.claimOf(graph.edges[edges[i]]), judge.claimOf(graph.edges[edges[j]])) ? 1 : 0;
       }
     }
     const std::vector<std::size_t> clique = largestClique(consistent);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mapping/graph/keyframe_graph.h"
@@ -8,11 +9,11 @@
 namespace oikos::mapping {
 
 struct LoopConsistencyConfig {
-  double drift_m_per_edge = 0.01;       ///< how far the odometry may stray on one edge, standard deviation
+  double drift_m_per_edge = 0.01;  ///< how far the odometry may stray on one edge, standard deviation
   double drift_rad_per_edge = 0.006;
-  double loop_sigma_m = 0.02;           ///< of a loop's own measurement
+  double loop_sigma_m = 0.02;  ///< of a loop's own measurement
   double loop_sigma_rad = 0.01;
-  double gate_sigmas = 4.0;             ///< a cycle that fails to close by more is inconsistent
+  double gate_sigmas = 4.0;  ///< a cycle that fails to close by more is inconsistent
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -22,6 +23,7 @@ struct LoopConsistencyConfig {
     visitor("loop_sigma_rad", loop_sigma_rad);
     visitor("gate_sigmas", gate_sigmas);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// Which loop edges to believe: the largest set found of which every two close a cycle with the odometry between them (Mangelson

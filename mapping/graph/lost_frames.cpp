@@ -13,11 +13,14 @@ namespace oikos::mapping {
 
 namespace {
 
-bool isLost(const TrackedFrame& frame) { return frame.status == TrackingStatus::kLost; }
+bool isLost(const TrackedFrame& frame) {
+  return frame.status == TrackingStatus::kLost;
+}
 
 class Retry {
  public:
-  Retry(const KeyframeGraph& graph, const LostFrameTools& tools, std::vector<TrackedFrame>& frames, std::vector<Eigen::Isometry3d>& T_world_frame)
+  Retry(const KeyframeGraph& graph, const LostFrameTools& tools, std::vector<TrackedFrame>& frames,
+        std::vector<Eigen::Isometry3d>& T_world_frame)
       : graph_(graph), tools_(tools), frames_(frames), T_world_frame_(T_world_frame) {}
 
   /// Follows landmarks from a neighbour that is not lost.

@@ -14,7 +14,9 @@ constexpr int kBits = 256;
 constexpr std::size_t kLeafSize = 60;
 constexpr int kNear = 45;  ///< Hamming distance of descriptors that may show the same thing
 
-bool bitOf(const Descriptor& d, int bit) { return ((d[static_cast<std::size_t>(bit / 64)] >> (bit % 64)) & 1U) != 0; }
+bool bitOf(const Descriptor& d, int bit) {
+  return ((d[static_cast<std::size_t>(bit / 64)] >> (bit % 64)) & 1U) != 0;
+}
 
 }  // namespace
 
@@ -90,6 +92,14 @@ std::vector<PlaceIndex::Candidate> PlaceIndex::query(const Features& features, i
     candidates.resize(static_cast<std::size_t>(most));
   }
   return candidates;
+}
+
+std::int64_t PlaceIndex::comparisons(const Features& features) const {
+  std::int64_t count = 0;
+  for (const Descriptor& descriptor : features.descriptor) {
+    count += static_cast<std::int64_t>(branches_[static_cast<std::size_t>(leafOf(descriptor))].entries.size());
+  }
+  return count;
 }
 
 }  // namespace oikos::mapping

@@ -21,6 +21,8 @@ class PlaceIndex {
   void add(int place, const Features& features);
   /// Places by votes, most first, then by number; at most `most`.
   [[nodiscard]] std::vector<Candidate> query(const Features& features, int most) const;
+  /// How many descriptors query() compares with those of the image: what it costs.
+  [[nodiscard]] std::int64_t comparisons(const Features& features) const;
 
  private:
   struct Entry {

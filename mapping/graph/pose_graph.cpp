@@ -12,57 +12,11 @@
 
 #include "mapping/graph/pose_block.h"
 #include "mapping/graph/projection_cost.h"
+#include "mapping/graph/relative_pose_cost.h"
 
 namespace oikos::mapping {
 
 namespace {
-
-/// Residual with the rotation's logarithm and the translation in the frame of `to`'s measurement; Jacobians to first order of
-/// the residual, which is small wherever the kernel lets it count.
-class RelativePoseCost final : public ceres::SizedCostFunction<6, 7, 7> {
- public:
-  RelativePoseCost(const Eigen::Isometry3d& T_from_to, const geometry::Matrix6d& sqrt_information)
-      : T_to_from_(T_from_to.inverse()), sqrt_information_(sqrt_information) {}
-
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const Eigen::Isometry3d T_world_from = fromBlock(parameters[0]);
-    const Eigen::Isometry3d T_world_to = fromBlock(parameters[1]);
-    const Eigen::Isometry3d error = T_to_from_ * T_world_from.inverse() * T_world_to;
-    const geometry::Vector6d xi = geometry::logSe3(error);
-    Eigen::Map<geometry::Vector6d> r(residuals);
-    r = sqrt_information_ * xi;
-    if (jacobians == nullptr) {
-      return true;
-    }
-    // error * exp(b): d xi = Jr^-1 b, Jr^-1 about I + ad(xi) / 2.
-    geometry::Matrix6d Jr_inverse = geometry::Matrix6d::Identity();
-    Jr_inverse.topLeftCorner<3, 3>() += 0.5 * geometry::skew(xi.tail<3>());
-    Jr_inverse.bottomRightCorner<3, 3>() += 0.5 * geometry::skew(xi.tail<3>());
-    Jr_inverse.topRightCorner<3, 3>() += 0.5 * geometry::skew(xi.head<3>());
-    const geometry::Matrix6d by_to = sqrt_information_ * Jr_inverse;
-    if (jacobians[0] != nullptr) {
-      const geometry::Matrix6d by_from = -by_to * geometry::adjoint(T_world_to.inverse() * T_world_from);
-      store(jacobians[0], by_from);
-    }
-    if (jacobians[1] != nullptr) {
-      store(jacobians[1], by_to);
-    }
-    return true;
-  }
-
- private:
-  static Eigen::Isometry3d fromBlock(const double* block) {
-    PoseBlock copy;
-    std::copy(block, block + 7, copy.begin());
-    return fromPoseBlock(copy);
-  }
-  static void store(double* jacobian, const geometry::Matrix6d& J) {
-    Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> out(jacobian);
-    out << J, geometry::Vector6d::Zero();
-  }
-  Eigen::Isometry3d T_to_from_;
-  geometry::Matrix6d sqrt_information_;
-};
 
 /// Upper factor U with U^T U = information, scaled and with its eigenvalues held in bounds.
 geometry::Matrix6d squareRoot(const geometry::Matrix6d& information, const PoseGraphConfig& config) {
@@ -84,7 +38,8 @@ struct Link {
   Eigen::Isometry3d T_from_to;
 };
 
-std::vector<Link> linksBetweenSubmaps(const KeyframeGraph& graph, const std::vector<char>& believed, const std::vector<MotionPrior>& priors) {
+std::vector<Link> linksBetweenSubmaps(const KeyframeGraph& graph, const std::vector<char>& believed,
+                                      const std::vector<MotionPrior>& priors) {
   std::vector<Link> links;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     if (believed[e] != 0) {

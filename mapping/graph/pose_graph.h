@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mapping/graph/keyframe_graph.h"
@@ -9,10 +10,10 @@ namespace oikos::mapping {
 
 struct PoseGraphConfig {
   int max_iterations = 50;
-  double information_scale = 0.04;   ///< of the edges' information: registration does not know of its systematic errors
-  double max_information = 1e6;      ///< per axis (1/m^2, 1/rad^2): one millimetre, one milliradian
-  double cauchy_sigmas = 3.0;        ///< robust kernel of loops
-  double odometry_sigma_m = 0.03;    ///< of one step of the recorded odometry between two nodes
+  double information_scale = 0.04;  ///< of the edges' information: registration does not know of its systematic errors
+  double max_information = 1e6;     ///< per axis (1/m^2, 1/rad^2): one millimetre, one milliradian
+  double cauchy_sigmas = 3.0;       ///< robust kernel of loops
+  double odometry_sigma_m = 0.03;   ///< of one step of the recorded odometry between two nodes
   double odometry_sigma_rad = 0.03;
 
   template <class Visitor>
@@ -24,6 +25,7 @@ struct PoseGraphConfig {
     visitor("odometry_sigma_m", odometry_sigma_m);
     visitor("odometry_sigma_rad", odometry_sigma_rad);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// Relative motion from another source (wheel odometry): weak, with a robust kernel.

@@ -12,7 +12,7 @@ using ScalarJacobian = Eigen::Map<Eigen::Vector3d>;
 
 /// A pose block and its motion until a row is exposed.
 struct MovingPose {
-  Eigen::Matrix3d R;      ///< at the stamp
+  Eigen::Matrix3d R;  ///< at the stamp
   Eigen::Vector3d t;
   Eigen::Matrix3d turn;   ///< exp(omega * time)
   Eigen::Vector3d shift;  ///< v * time

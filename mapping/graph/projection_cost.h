@@ -27,11 +27,11 @@ class RightPerturbedPose final : public ceres::Manifold {
 struct Sighting {
   Eigen::Vector2d host_px;
   Eigen::Vector2d seen_px;
-  geometry::Vector6d host_velocity;         ///< body twist (m/s, rad/s)
+  geometry::Vector6d host_velocity;  ///< body twist (m/s, rad/s)
   geometry::Vector6d seen_velocity;
   double inverse_sigma_px = 1.0;
-  double measured_inverse_depth = 0.0;      ///< of the depth image at seen_px, 1/m
-  double inverse_sigma_inverse_depth = 0.0; ///< 0: no reading
+  double measured_inverse_depth = 0.0;       ///< of the depth image at seen_px, 1/m
+  double inverse_sigma_inverse_depth = 0.0;  ///< 0: no reading
 };
 
 /// Residuals of one sighting, by the host's pose, the seeing node's pose, the landmark's inverse depth d in its host and the read-out

@@ -39,7 +39,8 @@ Window readWindow(const cv::Mat& depth_m, const Eigen::Vector2i& centre, int rad
     for (int x = std::max(0, centre.x() - radius); x <= std::min(depth_m.cols - 1, centre.x() + radius); ++x) {
       ++window.pixels;
       if (row[x] > 0.0F) {
-        window.readings.push_back({static_cast<double>(x - centre.x()), static_cast<double>(y - centre.y()), 1.0 / static_cast<double>(row[x])});
+        window.readings.push_back(
+            {static_cast<double>(x - centre.x()), static_cast<double>(y - centre.y()), 1.0 / static_cast<double>(row[x])});
       }
     }
   }
@@ -84,7 +85,8 @@ std::optional<InverseDepthPlane> fitSurface(const cv::Mat& depth_m, const Eigen:
   }
   std::vector<Reading>& readings = window.readings;
   const auto tenth = readings.begin() + static_cast<std::ptrdiff_t>(readings.size() / 10);
-  std::nth_element(readings.begin(), tenth, readings.end(), [](const Reading& a, const Reading& b) { return a.inverse_depth > b.inverse_depth; });
+  std::nth_element(readings.begin(), tenth, readings.end(),
+                   [](const Reading& a, const Reading& b) { return a.inverse_depth > b.inverse_depth; });
   const double nearest = tenth->inverse_depth;
   std::erase_if(readings, [&](const Reading& r) { return r.inverse_depth < kNearerSide * nearest; });
   if (static_cast<int>(readings.size()) * 10 < window.pixels * 3) {
@@ -115,7 +117,8 @@ std::vector<Corner> strongest(const cv::Mat& response, const cv::Rect& cell, dou
       }
       const float* above = response.ptr<float>(y - 1) + x;
       const float* below = response.ptr<float>(y + 1) + x;
-      const bool peak = r > row[x - 1] && r >= row[x + 1] && r > above[-1] && r > above[0] && r > above[1] && r >= below[-1] && r >= below[0] && r >= below[1];
+      const bool peak = r > row[x - 1] && r >= row[x + 1] && r > above[-1] && r > above[0] && r > above[1] && r >= below[-1] &&
+                        r >= below[0] && r >= below[1];
       if (peak) {
         corners.push_back({r, x, y});
       }

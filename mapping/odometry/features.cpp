@@ -18,7 +18,8 @@ namespace {
 std::vector<cv::KeyPoint> spreadEvenly(std::vector<cv::KeyPoint> keypoints, const cv::Size& size, int count) {
   constexpr int kColumns = 8;
   constexpr int kRows = 6;
-  std::stable_sort(keypoints.begin(), keypoints.end(), [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
+  std::stable_sort(keypoints.begin(), keypoints.end(),
+                   [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
   std::array<int, kColumns * kRows> held{};
   const int share = std::max(1, count / (kColumns * kRows));
   std::vector<cv::KeyPoint> kept;

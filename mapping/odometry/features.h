@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <string>
 #include <vector>
 
 #include "core/base/enum_table.h"
@@ -20,11 +21,11 @@ constexpr auto enumTable(FeatureType) {
 
 struct FeatureConfig {
   FeatureType type = FeatureType::kSift;
-  int count = 500;                 ///< kept per image, spread evenly (S350)
-  double image_scale = 0.5;        ///< SIFT runs on the image at this scale: a quarter of the time, and coarse places suffice
-  double contrast_threshold = 0.02; ///< SIFT's, of OpenCV
-  int fast_threshold = 12;         ///< ORB's
-  double max_depth_m = 8.0;        ///< features without a reading up to here are dropped
+  int count = 500;                   ///< kept per image, spread evenly (S350)
+  double image_scale = 0.5;          ///< SIFT runs on the image at this scale: a quarter of the time, and coarse places suffice
+  double contrast_threshold = 0.02;  ///< SIFT's, of OpenCV
+  int fast_threshold = 12;           ///< ORB's
+  double max_depth_m = 8.0;          ///< features without a reading up to here are dropped
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -35,6 +36,7 @@ struct FeatureConfig {
     visitor("fast_threshold", fast_threshold);
     visitor("max_depth_m", max_depth_m);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// 256 bits. ORB's own (Rublee et al., ICCV 2011), or SIFT's 128 numbers as two bits each (after Zhou et al., "Scalar

@@ -14,20 +14,20 @@ namespace oikos::mapping {
 /// refinement adjusts. Its place is one number, the inverse depth along the ray of its pixel in its host keyframe
 /// (Civera et al., T-RO 2008; Engel et al., "Direct Sparse Odometry", PAMI 2018).
 struct Landmark {
-  int host = -1;                                                    ///< node id of the keyframe it was found in
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();                  ///< in the host, level 0
-  double inverse_depth = 0.0;                                       ///< 1/m, from the host's depth image, later refined
-  double measured_inverse_depth = 0.0;                              ///< 1/m, from the host's depth image
-  double sigma = 0.0;                                               ///< of measured_inverse_depth, 1/m
-  Eigen::Vector2d inverse_depth_gradient = Eigen::Vector2d::Zero(); ///< of the surface about it, 1/m per pixel
+  int host = -1;                                                     ///< node id of the keyframe it was found in
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();                   ///< in the host, level 0
+  double inverse_depth = 0.0;                                        ///< 1/m, from the host's depth image, later refined
+  double measured_inverse_depth = 0.0;                               ///< 1/m, from the host's depth image
+  double sigma = 0.0;                                                ///< of measured_inverse_depth, 1/m
+  Eigen::Vector2d inverse_depth_gradient = Eigen::Vector2d::Zero();  ///< of the surface about it, 1/m per pixel
 };
 
 /// Where a landmark was seen.
 struct Observation {
   int landmark = -1;
-  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();              ///< level 0
-  float depth_m = std::numeric_limits<float>::quiet_NaN();      ///< the depth image's reading there; NaN = none
-  std::int8_t level = 0;                                        ///< pyramid level of the finest alignment: the error grows by 2^level
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();          ///< level 0
+  float depth_m = std::numeric_limits<float>::quiet_NaN();  ///< the depth image's reading there; NaN = none
+  std::int8_t level = 0;                                    ///< pyramid level of the finest alignment: the error grows by 2^level
 };
 
 [[nodiscard]] inline Eigen::Vector3d pointInHost(const Landmark& landmark, const camera::PinholeCamera& camera) {

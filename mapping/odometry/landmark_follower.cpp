@@ -2,6 +2,8 @@
 #include "mapping/odometry/landmark_follower.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -72,10 +74,16 @@ struct Sightings {
   std::vector<std::int8_t> level;
 };
 
-void search(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera, int coarsest_level,
+/// Which candidates to look for, and from which level of the pyramid down.
+struct Search {
+  int coarsest_level = 0;
+  std::size_t stride = 1;  ///< every n-th candidate
+};
+
+void search(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera, const Search& what,
             const FollowerConfig& config, Sightings& sightings) {
   const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
+  for (std::size_t i = 0; i < candidates.size(); i += what.stride) {
     if (sightings.pixel[i]) {
       continue;
     }
@@ -84,7 +92,7 @@ void search(const TargetView& view, const std::vector<Candidate>& candidates, co
     if (!query) {
       continue;
     }
-    query->coarsest_level = coarsest_level;
+    query->coarsest_level = what.coarsest_level;
     const PatchMatch match = alignPatch(*candidates[i].host, *view.pyramid, *query, config.patch);
     if (match.found && view.camera->contains(match.target_px, 1.0)) {
       sightings.pixel[i] = match.target_px;
@@ -98,8 +106,8 @@ struct Solved {
   std::vector<std::size_t> candidate;  ///< of each sighting in the solution
 };
 
-Solved solve(const TargetView& view, const std::vector<Candidate>& candidates, const Sightings& sightings, const Eigen::Isometry3d& T_world_camera,
-             const FollowerConfig& config) {
+Solved solve(const TargetView& view, const std::vector<Candidate>& candidates, const Sightings& sightings,
+             const Eigen::Isometry3d& T_world_camera, const FollowerConfig& config) {
   Solved solved;
   std::vector<PointSighting> points;
   const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
@@ -123,18 +131,38 @@ void forgetOutliers(const Solved& solved, Sightings& sightings) {
   }
 }
 
+/// A few landmarks looked for from far away tell the pose well enough for all others to be looked for nearby. The prediction stands
+/// where too few are found.
+Eigen::Isometry3d probe(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera_predicted,
+                        const FollowerConfig& config, Sightings& sightings) {
+  constexpr std::size_t kProbes = 40;
+  constexpr int kEnough = 12;
+  search(view, candidates, T_world_camera_predicted, {config.coarsest_level, std::max<std::size_t>(1, candidates.size() / kProbes)}, config,
+         sightings);
+  const Solved solved = solve(view, candidates, sightings, T_world_camera_predicted, config);
+  const bool usable = solved.pose.status == PoseStatus::kConverged && solved.pose.inliers >= kEnough &&
+                      solved.pose.inliers * 10 >= static_cast<int>(solved.candidate.size()) * 7;
+  if (!usable) {
+    search(view, candidates, T_world_camera_predicted, {config.coarsest_level, 1}, config, sightings);
+    return T_world_camera_predicted;
+  }
+  forgetOutliers(solved, sightings);
+  search(view, candidates, solved.pose.T_world_camera, {1, 1}, config, sightings);
+  return solved.pose.T_world_camera;
+}
+
 }  // namespace
 
-FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera_predicted,
-                             const FollowerConfig& config) {
+FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate>& candidates,
+                             const Eigen::Isometry3d& T_world_camera_predicted, const FollowerConfig& config) {
   FollowResult result;
   Sightings sightings{std::vector<char>(candidates.size(), 0), std::vector<std::optional<Eigen::Vector2d>>(candidates.size()),
                       std::vector<std::int8_t>(candidates.size(), 0)};
-  search(view, candidates, T_world_camera_predicted, config.coarsest_level, config, sightings);
-  Solved solved = solve(view, candidates, sightings, T_world_camera_predicted, config);
+  const Eigen::Isometry3d T_world_camera_probed = probe(view, candidates, T_world_camera_predicted, config, sightings);
+  Solved solved = solve(view, candidates, sightings, T_world_camera_probed, config);
   if (solved.pose.status == PoseStatus::kConverged) {
     forgetOutliers(solved, sightings);
-    search(view, candidates, solved.pose.T_world_camera, 1, config, sightings);
+    search(view, candidates, solved.pose.T_world_camera, {1, 1}, config, sightings);
     solved = solve(view, candidates, sightings, solved.pose.T_world_camera, config);
   }
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -148,15 +176,16 @@ FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate
   for (std::size_t k = 0; k < solved.candidate.size(); ++k) {
     if (solved.pose.inlier[k] != 0) {
       const std::size_t i = solved.candidate[k];
-      result.observations.push_back({candidates[i].landmark, sightings.pixel[i]->cast<float>(), depthAt(view, *sightings.pixel[i]), sightings.level[i]});
+      result.observations.push_back(
+          {candidates[i].landmark, sightings.pixel[i]->cast<float>(), depthAt(view, *sightings.pixel[i]), sightings.level[i]});
     }
   }
   result.tracked = result.pose.inliers >= config.min_inliers && result.pose.inliers >= config.min_inlier_ratio * result.found;
   return result;
 }
 
-std::vector<Observation> findLandmarks(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera,
-                                       double gate_px, const FollowerConfig& config) {
+std::vector<Observation> findLandmarks(const TargetView& view, const std::vector<Candidate>& candidates,
+                                       const Eigen::Isometry3d& T_world_camera, double gate_px, const FollowerConfig& config) {
   const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
   std::vector<Observation> observations;
   for (const Candidate& candidate : candidates) {
@@ -166,7 +195,8 @@ std::vector<Observation> findLandmarks(const TargetView& view, const std::vector
     }
     query->coarsest_level = 1;
     const PatchMatch match = alignPatch(*candidate.host, *view.pyramid, *query, config.patch);
-    if (match.found && match.level == 0 && (match.target_px - query->start_px).norm() < gate_px && view.camera->contains(match.target_px, 1.0)) {
+    if (match.found && match.level == 0 && (match.target_px - query->start_px).norm() < gate_px &&
+        view.camera->contains(match.target_px, 1.0)) {
       observations.push_back({candidate.landmark, match.target_px.cast<float>(), depthAt(view, match.target_px), 0});
     }
   }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/camera/pinhole_camera.h"
@@ -35,6 +36,7 @@ struct FollowerConfig {
     visitor("min_inliers", min_inliers);
     visitor("min_inlier_ratio", min_inlier_ratio);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// One image to look for landmarks in.
@@ -53,17 +55,17 @@ struct Candidate {
 };
 
 struct [[nodiscard]] FollowResult {
-  bool tracked = false;                    ///< enough inliers
-  PoseSolution pose;                       ///< `inlier` is empty here
-  std::vector<Observation> observations;   ///< inliers only, in the candidates' order
-  int in_view = 0;                         ///< candidates that should have been seen
-  int found = 0;                           ///< of these, patches that aligned
+  bool tracked = false;                   ///< enough inliers
+  PoseSolution pose;                      ///< `inlier`: one a patch that was found
+  std::vector<Observation> observations;  ///< inliers only, in the candidates' order
+  int in_view = 0;                        ///< candidates that should have been seen
+  int found = 0;                          ///< of these, patches that aligned
 };
 
 /// Looks for known landmarks in one image from a predicted pose, patch by patch, and solves for the pose; patches that disagree
 /// or were not found are looked for once more from the solved pose.
-FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate>& candidates, const Eigen::Isometry3d& T_world_camera_predicted,
-                             const FollowerConfig& config);
+FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate>& candidates,
+                             const Eigen::Isometry3d& T_world_camera_predicted, const FollowerConfig& config);
 
 /// Looks for landmarks from a pose that is known to a few pixels, without solving for it: those whose patch is found within `gate_px`
 /// of where it should be.

@@ -54,8 +54,12 @@ float sampleBilinear(const cv::Mat& image, float x, float y) {
          fy * ((1.0F - fx) * static_cast<float>(bottom[0]) + fx * static_cast<float>(bottom[1]));
 }
 
-double toLevel(double px, int level) { return (px + 0.5) / (1 << level) - 0.5; }
-double fromLevel(double px, int level) { return (px + 0.5) * (1 << level) - 0.5; }
+double toLevel(double px, int level) {
+  return (px + 0.5) / (1 << level) - 0.5;
+}
+double fromLevel(double px, int level) {
+  return (px + 0.5) * (1 << level) - 0.5;
+}
 
 /// The host's patch as it should look on the target's pixel grid at one level, with its gradients and normal matrix.
 struct Template {
@@ -76,7 +80,8 @@ bool warpPatch(const ImagePyramid& host, const PatchQuery& query, int level, std
   }
   const cv::Mat& image = host.level(host_level);
   const Eigen::Matrix2f step = (host_from_target / (1 << host_level)).cast<float>();
-  const Eigen::Vector2f centre(static_cast<float>(toLevel(query.host_px.x(), host_level)), static_cast<float>(toLevel(query.host_px.y(), host_level)));
+  const Eigen::Vector2f centre(static_cast<float>(toLevel(query.host_px.x(), host_level)),
+                               static_cast<float>(toLevel(query.host_px.y(), host_level)));
   const float reach_x = (std::abs(step(0, 0)) + std::abs(step(0, 1))) * (kRadius + 1);
   const float reach_y = (std::abs(step(1, 0)) + std::abs(step(1, 1))) * (kRadius + 1);
   if (!(centre.x() - reach_x >= 0.0F && centre.y() - reach_y >= 0.0F && centre.x() + reach_x < static_cast<float>(image.cols - 1) &&
@@ -126,7 +131,8 @@ bool prepare(const std::array<float, kBorderedSide * kBorderedSide>& patch, doub
 
 enum class LevelStatus { kConverged, kDiverged };
 
-LevelStatus alignLevel(const Template& t, const cv::Mat& image, const PatchAlignerConfig& config, Eigen::Vector2d& position, double& correlation) {
+LevelStatus alignLevel(const Template& t, const cv::Mat& image, const PatchAlignerConfig& config, Eigen::Vector2d& position,
+                       double& correlation) {
   float gain = 1.0F;
   float bias = t.mean;
   const Eigen::Vector2d start = position;

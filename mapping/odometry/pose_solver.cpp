@@ -58,7 +58,9 @@ struct NormalEquations {
   geometry::Vector6d g = geometry::Vector6d::Zero();
 };
 
-double huberWeight(double norm, double limit) { return norm <= limit ? 1.0 : limit / norm; }
+double huberWeight(double norm, double limit) {
+  return norm <= limit ? 1.0 : limit / norm;
+}
 
 NormalEquations linearise(const std::vector<PointSighting>& sightings, const camera::PinholeCamera& camera, const Motion& motion,
                           const std::vector<char>& use, const PoseSolverConfig& config) {
@@ -87,7 +89,8 @@ void markInliers(const std::vector<PointSighting>& sightings, const camera::Pinh
   double squares_px = 0.0;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     const Residual r = residualOf(sightings[i], camera, motion);
-    const bool inlier = r.valid && r.whitened.head<2>().norm() < outlier_sigmas && (!r.has_depth || std::abs(r.whitened.z()) < 3.0 * outlier_sigmas);
+    const bool inlier =
+        r.valid && r.whitened.head<2>().norm() < outlier_sigmas && (!r.has_depth || std::abs(r.whitened.z()) < 3.0 * outlier_sigmas);
     solution.inlier[i] = inlier ? 1 : 0;
     if (inlier) {
       ++solution.inliers;
@@ -108,7 +111,7 @@ bool iterate(const std::vector<PointSighting>& sightings, const camera::PinholeC
       return false;
     }
     solution.T_world_camera = solution.T_world_camera * geometry::expSe3(step);
-    if (step.norm() < 1e-7) {
+    if (step.norm() < config.converged) {
       break;
     }
   }

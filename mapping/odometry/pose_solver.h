@@ -14,13 +14,14 @@ namespace oikos::mapping {
 struct PointSighting {
   Eigen::Vector3d point_world;
   Eigen::Vector2d pixel;
-  double depth_m;            ///< the depth image's reading there; NaN = none
-  double pixel_sigma_px;     ///< of the place's projection and of the sighting together
-  double time_s = 0.0;       ///< exposure of the pixel's row after the stamp (rolling shutter)
+  double depth_m;         ///< the depth image's reading there; NaN = none
+  double pixel_sigma_px;  ///< of the place's projection and of the sighting together
+  double time_s = 0.0;    ///< exposure of the pixel's row after the stamp (rolling shutter)
 };
 
 struct PoseSolverConfig {
   int max_iterations = 12;
+  double converged = 1e-6;      ///< a step shorter than this (m and rad together) ends the iteration
   double huber_sigmas = 1.5;    ///< beyond it a residual pulls with constant force
   double outlier_sigmas = 4.0;  ///< beyond it a sighting is an outlier
   double depth_weight = 0.3;    ///< of the depth residuals' information: readings of one frame share their errors
@@ -28,10 +29,12 @@ struct PoseSolverConfig {
   template <class Visitor>
   void visit(Visitor&& visitor) {
     visitor("max_iterations", max_iterations);
+    visitor("converged", converged);
     visitor("huber_sigmas", huber_sigmas);
     visitor("outlier_sigmas", outlier_sigmas);
     visitor("depth_weight", depth_weight);
   }
+  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 enum class PoseStatus { kTooFewSightings, kDegenerate, kConverged };
@@ -42,7 +45,7 @@ struct [[nodiscard]] PoseSolution {
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< of the right perturbation (m, rad), scaled by the residual
   std::vector<char> inlier;                                    ///< one a sighting
   int inliers = 0;
-  double rms_px = 0.0;                                         ///< reprojection error of the inliers, per coordinate pair
+  double rms_px = 0.0;  ///< reprojection error of the inliers, per coordinate pair
 };
 
 /// The camera pose that best explains sightings of known points: reprojection and, where there is one, depth residual, weighted by

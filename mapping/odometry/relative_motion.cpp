@@ -116,7 +116,8 @@ double spreadOf(const std::vector<int>& inliers, const Problem& problem, const c
   return 4.0 * kPi * std::sqrt(std::max(0.0, covariance.determinant())) / (camera.width * camera.height);
 }
 
-PoseSolution refine(const std::vector<int>& inliers, const Problem& problem, const camera::PinholeCamera& camera, const Eigen::Isometry3d& T_b_a) {
+PoseSolution refine(const std::vector<int>& inliers, const Problem& problem, const camera::PinholeCamera& camera,
+                    const Eigen::Isometry3d& T_b_a) {
   std::vector<PointSighting> sightings;
   for (const int k : inliers) {
     const auto i = static_cast<std::size_t>(problem.matches[static_cast<std::size_t>(k)].a);
@@ -131,8 +132,8 @@ PoseSolution refine(const std::vector<int>& inliers, const Problem& problem, con
 
 }  // namespace
 
-RelativeMotion estimateMotion(const Features& a, const Features& b, const std::vector<FeatureMatch>& matches, const camera::PinholeCamera& camera,
-                              const RelativeMotionConfig& config, std::uint64_t seed) {
+RelativeMotion estimateMotion(const Features& a, const Features& b, const std::vector<FeatureMatch>& matches,
+                              const camera::PinholeCamera& camera, const RelativeMotionConfig& config, std::uint64_t seed) {
   RelativeMotion motion;
   if (static_cast<int>(matches.size()) < std::max(3, config.min_inliers)) {
     return motion;

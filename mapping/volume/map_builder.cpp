@@ -2,6 +2,7 @@
 #include "mapping/volume/map_builder.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/base/parallel.h"
 #include "core/geometry/ply.h"
@@ -13,24 +14,26 @@ namespace oikos::mapping {
 
 namespace {
 
-/// Reads views a few at a time, as many as there are threads, and hands them on in order.
-void forEachView(const std::vector<View>& views, bool color, const FusionInput& input,
-                 const std::function<void(const View&, camera::RgbdFrame&)>& visit) {
-  const int batch = std::max(1, input.threads);
+/// Goes through the views a few at a time: `prepare` runs for each on any thread, then `use` for the whole batch in order.
+template <class Item>
+void forEachBatch(const std::vector<View>& views, const FusionInput& input, const std::function<Item(const View&)>& prepare,
+                  const std::function<void(std::vector<Item>&)>& use) {
+  const int batch = 2 * std::max(1, input.threads);
   for (int begin = 0; begin < static_cast<int>(views.size()); begin += batch) {
-    const int count = std::min(batch, static_cast<int>(views.size()) - begin);
-    std::vector<camera::RgbdFrame> frames(static_cast<std::size_t>(count));
-    base::parallelFor(count, input.threads, [&](int i) {
-      frames[static_cast<std::size_t>(i)] = input.read(views[static_cast<std::size_t>(begin + i)].frame, color);
-    });
-    for (int i = 0; i < count; ++i) {
-      visit(views[static_cast<std::size_t>(begin + i)], frames[static_cast<std::size_t>(i)]);
-    }
-    if (color && input.progress) {
-      input.progress(begin + count, static_cast<int>(views.size()));
-    }
+    std::vector<Item> items(static_cast<std::size_t>(std::min(batch, static_cast<int>(views.size()) - begin)));
+    base::parallelFor(static_cast<int>(items.size()), input.threads,
+                      [&](int i) { items[static_cast<std::size_t>(i)] = prepare(views[static_cast<std::size_t>(begin + i)]); });
+    use(items);
+    base::reportProgress(input.progress, {"fusing the map", begin + static_cast<int>(items.size()), static_cast<int>(views.size())});
   }
 }
+
+/// A frame with what was made of it on some thread.
+struct PreparedView {
+  Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
+  camera::RgbdFrame frame;    ///< depth as read
+  camera::RgbdFrame surface;  ///< the same with the depth that is good enough for surfaces
+};
 
 /// At most `most` views, evenly spread.
 std::vector<View> spread(const std::vector<View>& views, int most) {
@@ -63,35 +66,70 @@ void measureCloud(const VoxelCloud& cloud, FusedMap& fused) {
 }  // namespace
 
 FloorResult findFloor(const std::vector<View>& views_world, const FusionInput& input, const VolumeConfig& config) {
+  struct DepthView {
+    Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+    cv::Mat depth_m;
+  };
   FloorFinder finder(config.floor);
-  forEachView(spread(views_world, config.floor_views), false, input, [&](const View& view, camera::RgbdFrame& frame) {
-    finder.add(filterDepth(frame.depth_m, config.surface), input.camera, view.T_a_camera);
-  });
+  FusionInput quiet = input;
+  quiet.progress = {};
+  forEachBatch<DepthView>(
+      spread(views_world, config.floor_views), quiet,
+      [&](const View& view) {
+        return DepthView{view.T_a_camera, filterDepth(input.read(view.frame, false).depth_m, config.surface)};
+      },
+      [&](std::vector<DepthView>& batch) {
+        for (const DepthView& view : batch) {
+          finder.add(view.depth_m, input.camera, view.T_world_camera);
+        }
+      });
   return finder.find();
 }
 
 FusedMap fuseMap(const std::vector<View>& views_map, bool floor_known, const FusionInput& input, const VolumeConfig& config,
-                 const std::function<void(const camera::RgbdFrame&)>& also, const std::filesystem::path& folder) {
+                 const ViewObserver& observer, const std::filesystem::path& folder) {
   FusedMap fused;
   geometry::ColoredMesh mesh;
   {
-    OccupancyIntegrator occupancy(config.occupancy, input.threads);
+    // Each product goes through the views in order on a thread of its own.
+    OccupancyIntegrator occupancy(config.occupancy, 1);
     VoxelCloud cloud(config.cloud);
-    TsdfVolume distances(config.mesh, input.threads);
-    forEachView(views_map, true, input, [&](const View& view, camera::RgbdFrame& frame) {
-      also(frame);
-      const PosedFrame posed{frame, input.camera, view.T_a_camera};
-      occupancy.insert(makeScan(posed, config.occupancy));
-      frame.depth_m = filterDepth(frame.depth_m, config.surface);
-      cloud.add(posed);
-      distances.integrate(posed);
-    });
-    writeOctomap(occupancy, folder);
-    countVoxels(occupancy, fused);
-    fused.grid = projectOccupancy(occupancy, config.grid);
-    cloud.write(folder / "cloud.ply");
-    measureCloud(cloud, fused);
-    mesh = extractMesh(distances, input.threads);
+    TsdfVolume distances(config.mesh, 1);
+    forEachBatch<PreparedView>(
+        views_map, input,
+        [&](const View& view) {
+          PreparedView prepared{view.T_a_camera, input.read(view.frame, true), {}};
+          prepared.surface = prepared.frame;
+          prepared.surface.depth_m = filterDepth(prepared.frame.depth_m, config.surface);
+          observer.prepare(prepared.frame);
+          return prepared;
+        },
+        [&](std::vector<PreparedView>& batch) {
+          const std::array<std::function<void(const PreparedView&)>, 4> products = {
+              [&](const PreparedView& v) {
+                distances.integrate({v.surface, input.camera, v.T_map_camera});
+              },
+              [&](const PreparedView& v) {
+                occupancy.insert(makeScan({v.frame, input.camera, v.T_map_camera}, config.occupancy));
+              },
+              [&](const PreparedView& v) {
+                cloud.add({v.surface, input.camera, v.T_map_camera});
+              },
+              [&](const PreparedView& v) { observer.inOrder(v.frame); }};
+          base::parallelFor(static_cast<int>(products.size()), input.threads,
+                            [&](int product) { std::for_each(batch.begin(), batch.end(), products[static_cast<std::size_t>(product)]); });
+        });
+    const std::array<std::function<void()>, 3> results = {[&] { mesh = extractMesh(distances, 1); },
+                                                          [&] {
+                                                            writeOctomap(occupancy, folder);
+                                                            countVoxels(occupancy, fused);
+                                                            fused.grid = projectOccupancy(occupancy, config.grid);
+                                                          },
+                                                          [&] {
+                                                            cloud.write(folder / "cloud.ply");
+                                                            measureCloud(cloud, fused);
+                                                          }};
+    base::parallelFor(static_cast<int>(results.size()), input.threads, [&](int i) { results[static_cast<std::size_t>(i)](); });
   }
   if (!floor_known) {
     fused.grid = withAllUnknown(std::move(fused.grid));

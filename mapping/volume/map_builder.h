@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "mapping/volume/depth_filter.h"
 #include "mapping/volume/floor_finder.h"
 #include "mapping/volume/occupancy_config.h"
@@ -25,7 +26,7 @@ struct VolumeConfig {
   int min_piece_triangles = 100;  ///< smaller connected pieces of the mesh are specks
   OccupancyGridConfig grid;
   FloorConfig floor;
-  int floor_views = 40;           ///< keyframes that the floor is looked for in, spread over the drive
+  int floor_views = 40;  ///< keyframes that the floor is looked for in, spread over the drive
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -62,14 +63,20 @@ struct FusionInput {
   const camera::PinholeCamera& camera;
   std::function<camera::RgbdFrame(int frame, bool color)> read;  ///< thread-safe; a frame that tracking has read before
   int threads = 1;
-  std::function<void(int done, int total)> progress;
+  base::ProgressSink progress;
+};
+
+/// Is shown each view's colour frame: `prepare` on any thread, then `inOrder` one after the other.
+struct ViewObserver {
+  std::function<void(const camera::RgbdFrame&)> prepare;
+  std::function<void(const camera::RgbdFrame&)> inOrder;
 };
 
 [[nodiscard]] FloorResult findFloor(const std::vector<View>& views_world, const FusionInput& input, const VolumeConfig& config);
 
 /// Fuses the views in their order and writes octomap.bt, octomap.ot, cloud.ply, mesh.ply, grid.pgm and grid.yaml into `folder`.
-/// `floor_known`: false makes every cell of the grid unknown. `also` is shown each view's colour frame, in order (keyframe store).
+/// `floor_known`: false makes every cell of the grid unknown.
 FusedMap fuseMap(const std::vector<View>& views_map, bool floor_known, const FusionInput& input, const VolumeConfig& config,
-                 const std::function<void(const camera::RgbdFrame&)>& also, const std::filesystem::path& folder);
+                 const ViewObserver& observer, const std::filesystem::path& folder);
 
 }  // namespace oikos::mapping

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
@@ -42,6 +43,48 @@ void fuse(const Reading& reading, int max_weight, TsdfVoxel& voxel) {
   }
   voxel.weight = static_cast<std::uint16_t>(std::min(total, max_weight));
 }
+
+/// What the images say about a point in the camera's frame.
+class DepthLookup {
+ public:
+  DepthLookup(const PosedFrame& posed, double truncation_m)
+      : depth_(posed.frame.depth_m),
+        color_(posed.frame.color),
+        fx_(static_cast<float>(posed.camera.fx)),
+        fy_(static_cast<float>(posed.camera.fy)),
+        cx_(static_cast<float>(posed.camera.cx) + 0.5F),
+        cy_(static_cast<float>(posed.camera.cy) + 0.5F),
+        per_truncation_(static_cast<float>(1.0 / truncation_m)) {}
+
+  /// Nothing outside the image, without a reading, and where a surface hides the point.
+  [[nodiscard]] std::optional<Reading> find(const Eigen::Vector3f& point_camera) const {
+    if (point_camera.z() < 0.05F) {
+      return std::nullopt;
+    }
+    const float per_depth = 1.0F / point_camera.z();
+    const float u = fx_ * point_camera.x() * per_depth + cx_;
+    const float v = fy_ * point_camera.y() * per_depth + cy_;
+    if (!(u >= 0.0F && v >= 0.0F && u < static_cast<float>(depth_.cols) && v < static_cast<float>(depth_.rows))) {
+      return std::nullopt;
+    }
+    const int column = static_cast<int>(u);
+    const int row = static_cast<int>(v);
+    const float reading_m = depth_.ptr<float>(row)[column];
+    const float distance = (reading_m - point_camera.z()) * per_truncation_;
+    if (!(distance > -1.0F)) {
+      return std::nullopt;
+    }
+    const float behind = distance < 0.0F ? 1.0F + distance : 1.0F;  // what lies behind a surface is less and less sure
+    const float weight = kWeightAtOneMetre * behind / std::max(reading_m * reading_m, 0.25F);
+    return Reading{std::min(distance, 1.0F), std::max(1, static_cast<int>(weight)), color_.ptr<std::uint8_t>(row) + 3 * column};
+  }
+
+ private:
+  const cv::Mat& depth_;
+  const cv::Mat& color_;
+  float fx_, fy_, cx_, cy_;
+  float per_truncation_;
+};
 
 }  // namespace
 
@@ -113,42 +156,18 @@ bool TsdfVolume::isInView(VoxelKey brick, const PosedFrame& posed) const {
 }
 
 void TsdfVolume::update(const PosedFrame& posed, VoxelKey key, TsdfBrick& brick) const {
-  const cv::Mat& depth = posed.frame.depth_m;
-  const cv::Mat& color = posed.frame.color;
   const Eigen::Isometry3f T_camera_map = posed.T_map_camera.inverse(Eigen::Isometry).cast<float>();
-  const auto voxel_m = static_cast<float>(config_.voxel_m);
   const Eigen::Vector3f first_camera = T_camera_map * lattice_.center(key);
-  const Eigen::Matrix3f step_camera = voxel_m * T_camera_map.linear();
-  const auto fx = static_cast<float>(posed.camera.fx);
-  const auto fy = static_cast<float>(posed.camera.fy);
-  const float cx = static_cast<float>(posed.camera.cx) + 0.5F;
-  const float cy = static_cast<float>(posed.camera.cy) + 0.5F;
-  const float per_truncation = 1.0F / static_cast<float>(truncation_m_);
+  const Eigen::Matrix3f step_camera = static_cast<float>(config_.voxel_m) * T_camera_map.linear();
+  const DepthLookup lookup(posed, truncation_m_);
   for (int line = 0; line < kBrickSide * kBrickSide; ++line) {
-    Eigen::Vector3f point = first_camera + static_cast<float>(line % kBrickSide) * step_camera.col(1) +
-                            static_cast<float>(line / kBrickSide) * step_camera.col(2);
+    Eigen::Vector3f point_camera = first_camera + static_cast<float>(line % kBrickSide) * step_camera.col(1) +
+                                   static_cast<float>(line / kBrickSide) * step_camera.col(2);
     TsdfVoxel* voxels = &brick.voxels[static_cast<std::size_t>(line * kBrickSide)];
-    for (int x = 0; x < kBrickSide; ++x, point += step_camera.col(0)) {
-      if (point.z() < 0.05F) {
-        continue;
+    for (int x = 0; x < kBrickSide; ++x, point_camera += step_camera.col(0)) {
+      if (const auto reading = lookup.find(point_camera)) {
+        fuse(*reading, config_.max_weight, voxels[x]);
       }
-      const float per_depth = 1.0F / point.z();
-      const float u = fx * point.x() * per_depth + cx;
-      const float v = fy * point.y() * per_depth + cy;
-      if (!(u >= 0.0F && v >= 0.0F && u < static_cast<float>(depth.cols) && v < static_cast<float>(depth.rows))) {
-        continue;
-      }
-      const int column = static_cast<int>(u);
-      const int row = static_cast<int>(v);
-      const float reading_m = depth.ptr<float>(row)[column];
-      const float distance = (reading_m - point.z()) * per_truncation;
-      if (!(distance > -1.0F)) {
-        continue;  // hidden, or no reading
-      }
-      const float behind = distance < 0.0F ? 1.0F + distance : 1.0F;  // what lies behind a surface is less and less sure
-      const float weight = kWeightAtOneMetre * behind / std::max(reading_m * reading_m, 0.25F);
-      fuse({std::min(distance, 1.0F), std::max(1, static_cast<int>(weight)), color.ptr<std::uint8_t>(row) + 3 * column}, config_.max_weight,
-           voxels[x]);
     }
   }
 }

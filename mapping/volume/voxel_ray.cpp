@@ -4,6 +4,7 @@
 // compiled without contraction of floating-point expressions (set in CMakeLists.txt).
 #include "mapping/volume/voxel_ray.h"
 
+#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -61,37 +62,60 @@ constexpr int kPairLanes = 2;
 using Doubles = double __attribute__((vector_size(kPairLanes * sizeof(double))));
 using Words = std::int64_t __attribute__((vector_size(kPairLanes * sizeof(std::int64_t))));
 
+/// Lanes are set and read as array elements: GCC 12 miscompiles subscripts of vectors under -fsanitize=undefined.
+template <typename Vector, typename Element>
+Vector load(const Element (&lanes)[kPairLanes]) {
+  Vector vector;
+  std::memcpy(&vector, lanes, sizeof(vector));
+  return vector;
+}
+template <typename Vector, typename Element>
+void store(const Vector& vector, Element (&lanes)[kPairLanes]) {
+  std::memcpy(lanes, &vector, sizeof(vector));
+}
+
 struct RayPair {
-  Doubles t_next[3] = {};
-  Doubles t_voxel[3] = {};
-  Doubles length = {};
-  Words step[3] = {};
-  Words key = {};
-  Words last = {};
+  double t_next[3][kPairLanes] = {};
+  double t_voxel[3][kPairLanes] = {};
+  double length[kPairLanes] = {};
+  VoxelKey step[3][kPairLanes] = {};
+  VoxelKey key[kPairLanes] = {};
+  VoxelKey last[kPairLanes] = {};
+  std::int64_t done[kPairLanes] = {};  ///< not 0: at its end
 
   void set(int lane, const Traversal& ray) {
     for (int a = 0; a < 3; ++a) {
       t_next[a][lane] = ray.axes[a].t_next;
       t_voxel[a][lane] = ray.axes[a].t_voxel;
-      step[a][lane] = static_cast<std::int64_t>(ray.axes[a].step);
+      step[a][lane] = ray.axes[a].step;
     }
-    key[lane] = static_cast<std::int64_t>(ray.first);
-    last[lane] = static_cast<std::int64_t>(ray.last);
+    key[lane] = ray.first;
+    last[lane] = ray.last;
     length[lane] = ray.length;
   }
 
-  /// To the next voxel; the lanes that are at their end then are not zero in the result.
-  Words advance() {
-    const Words x_before_y = t_next[0] < t_next[1];
-    const Words along_x = x_before_y & (t_next[0] < t_next[2]);
-    const Words along_y = ~x_before_y & (t_next[1] < t_next[2]);
+  /// To the next voxel.
+  void advance() {
+    const Doubles x = load<Doubles>(t_next[0]);
+    const Doubles y = load<Doubles>(t_next[1]);
+    const Doubles z = load<Doubles>(t_next[2]);
+    const Words x_before_y = x < y;
+    const Words along_x = x_before_y & (x < z);
+    const Words along_y = ~x_before_y & (y < z);
     const Words along_z = ~(along_x | along_y);
-    key = (key + ((step[0] & along_x) | (step[1] & along_y) | (step[2] & along_z))) & static_cast<std::int64_t>(kVoxelKeyMask);
-    t_next[0] += along_x ? t_voxel[0] : Doubles{};
-    t_next[1] += along_y ? t_voxel[1] : Doubles{};
-    t_next[2] += along_z ? t_voxel[2] : Doubles{};
-    const Words beyond = (t_next[0] > length) & (t_next[1] > length) & (t_next[2] > length);
-    return (key == last) | beyond;
+    const Words steps = (load<Words>(step[0]) & along_x) | (load<Words>(step[1]) & along_y) | (load<Words>(step[2]) & along_z);
+    const Words moved = (load<Words>(key) + steps) & static_cast<std::int64_t>(kVoxelKeyMask);
+    const Doubles next_x = x + (along_x ? load<Doubles>(t_voxel[0]) : Doubles{});
+    const Doubles next_y = y + (along_y ? load<Doubles>(t_voxel[1]) : Doubles{});
+    const Doubles next_z = z + (along_z ? load<Doubles>(t_voxel[2]) : Doubles{});
+    const Doubles end = load<Doubles>(length);
+    const Words beyond = (next_x > end) & (next_y > end) & (next_z > end);
+    const Words ended = (moved == load<Words>(last)) | beyond;
+    store(moved, key);
+    store(next_x, t_next[0]);
+    store(next_y, t_next[1]);
+    store(next_z, t_next[2]);
+    store(ended, done);
   }
 };
 
@@ -111,12 +135,11 @@ class RayBundle {
       for (int lane = 0; lane < kLanes; ++lane) {
         mark(lane);
       }
-      const Words done_low = pairs_[0].advance();
-      const Words done_high = pairs_[1].advance();
-      const Words any = done_low | done_high;
-      if ((any[0] | any[1]) != 0) {
+      pairs_[0].advance();
+      pairs_[1].advance();
+      if ((pairs_[0].done[0] | pairs_[0].done[1] | pairs_[1].done[0] | pairs_[1].done[1]) != 0) {
         for (int lane = 0; lane < kLanes; ++lane) {
-          if ((lane < kPairLanes ? done_low : done_high)[lane % kPairLanes] != 0) {
+          if (pairs_[lane / kPairLanes].done[lane % kPairLanes] != 0) {
             refill(lane);
           }
         }
@@ -150,7 +173,7 @@ class RayBundle {
   }
 
   void mark(int lane_number) {
-    const auto key = static_cast<VoxelKey>(pairs_[lane_number / kPairLanes].key[lane_number % kPairLanes]);
+    const VoxelKey key = pairs_[lane_number / kPairLanes].key[lane_number % kPairLanes];
     Lane& lane = lanes_[lane_number];
     if (brickOf(key) != lane.brick) {
       if (!lane.live) {

@@ -46,7 +46,7 @@ Outcome evaluate(std::vector<std::string> arguments) {
   const Captured answer(std::cout);
   const Captured complaint(std::cerr);
   Program program;
-  addEvaluate(program.root());
+  addEvaluateCommand(program.root());
   const ExitCode code = program.run(static_cast<int>(argv.size()), argv.data());
   return {code, answer.text(), complaint.text()};
 }

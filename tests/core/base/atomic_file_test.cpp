@@ -2,15 +2,14 @@
 #include "core/base/atomic_file.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
 #include <iterator>
 #include <string>
 
 #include "core/base/error.h"
 #include "core/base/read_file.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oikos::base {
@@ -19,26 +18,6 @@ namespace {
 std::ptrdiff_t countFiles(const std::filesystem::path& folder) {
   return std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator());
 }
-
-/// No file of this process may grow beyond a size: what a full disk does, for any user.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{bytes, old_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit old_{};
-  void (*old_handler_)(int);
-};
 
 TEST(AtomicFile, CreatesAndReplacesAndLeavesNothingBeside) {
   const test::TemporaryFolder folder;
@@ -54,7 +33,7 @@ TEST(AtomicFile, FullDiskLeavesTheOldContent) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("report.json", "old");
   {
-    const FileSizeLimit limit(1000);
+    const test::FileSizeLimit limit(1000);
     EXPECT_THROW(writeFileAtomically(file, std::string(5000, 'x')), Error);
   }
   EXPECT_EQ(readFile(file), "old");

@@ -145,7 +145,7 @@ TEST_F(ConfigFile, RejectsTextThatIsNotToml) {
 }
 
 TEST(Config, MissingFileIsAnIoError) {
-  EXPECT_EQ(failureOf({"/no/such/file.toml", {}}, ErrorCode::kIo), "/no/such/file.toml: cannot be opened: No such file or directory");
+  EXPECT_EQ(failureOf({"/no/such/file.toml", {}}, ErrorCode::kIo), "/no/such/file.toml: cannot open: No such file or directory");
 }
 
 TEST_F(ConfigFile, CommandLineWinsOverFileAndLaterOverEarlier) {

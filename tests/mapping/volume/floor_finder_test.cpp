@@ -22,7 +22,7 @@ Eigen::Isometry3d worldFrame() {
   return T_world_map;
 }
 
-FloorResult findIn(const tests::AnalyticRoom& room, const std::vector<Eigen::Isometry3d>& poses) {
+FloorResult findIn(const test::AnalyticRoom& room, const std::vector<Eigen::Isometry3d>& poses) {
   FloorConfig config;
   config.pixel_stride = 2;  // the images are small
   FloorFinder finder(config);
@@ -48,8 +48,8 @@ void expectFloor(const FloorResult& floor, const Eigen::Isometry3d& T_map_first)
 }
 
 TEST(FloorFinder, FindsTheFloorOfARoom) {
-  const auto poses = tests::lookAround(8, 0.3, 1.3, 0.5);
-  const FloorResult floor = findIn(tests::AnalyticRoom::furnished(), poses);
+  const auto poses = test::lookAround(8, 0.3, 1.3, 0.5);
+  const FloorResult floor = findIn(test::AnalyticRoom::furnished(), poses);
   expectFloor(floor, poses[0]);
   EXPECT_GT(floor.area_m2, 2.0);
   EXPECT_LT(floor.rms_m, 0.005);
@@ -58,11 +58,11 @@ TEST(FloorFinder, FindsTheFloorOfARoom) {
 }
 
 TEST(FloorFinder, PrefersALittleFloorToALargeTable) {
-  const tests::AnalyticRoom room({{-2.0, -1.5, 0.0}, {2.0, 1.5, 2.5}, {200, 200, 200}},
-                                 {{{0.0, -1.2, 0.0}, {1.9, 1.2, 0.75}, {220, 30, 30}}});
+  const test::AnalyticRoom room({{-2.0, -1.5, 0.0}, {2.0, 1.5, 2.5}, {200, 200, 200}},
+                                {{{0.0, -1.2, 0.0}, {1.9, 1.2, 0.75}, {220, 30, 30}}});
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < 6; ++i) {
-    poses.push_back(tests::lookAt({-1.7, 0.1 * i, 1.5}, {0.6, 0.2 * i - 0.4, 0.3}));
+    poses.push_back(test::lookAt({-1.7, 0.1 * i, 1.5}, {0.6, 0.2 * i - 0.4, 0.3}));
   }
   expectFloor(findIn(room, poses), poses[0]);
 }
@@ -70,9 +70,9 @@ TEST(FloorFinder, PrefersALittleFloorToALargeTable) {
 TEST(FloorFinder, WithoutAFloorInSightZIsZeroAtTheCameraAndUpIsAGuess) {
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < 6; ++i) {
-    poses.push_back(tests::lookAt({-1.0 + 0.1 * i, 0.0, 1.3}, {2.0, 0.2 * i, 1.5}));  // walls and ceiling
+    poses.push_back(test::lookAt({-1.0 + 0.1 * i, 0.0, 1.3}, {2.0, 0.2 * i, 1.5}));  // walls and ceiling
   }
-  const FloorResult floor = findIn(tests::AnalyticRoom::furnished(), poses);
+  const FloorResult floor = findIn(test::AnalyticRoom::furnished(), poses);
   ASSERT_EQ(floor.status, FloorStatus::kNoFloor);
   const Eigen::Isometry3d T_found_first = floor.T_map_world * worldFrame() * poses[0];
   EXPECT_LT(T_found_first.translation().norm(), 1e-9);
@@ -82,8 +82,8 @@ TEST(FloorFinder, WithoutAFloorInSightZIsZeroAtTheCameraAndUpIsAGuess) {
 }
 
 TEST(FloorFinder, ATableThatStandsOnASeenFloorIsNotTheFloor) {
-  const auto poses = tests::lookAround(8, 0.3, 0.9, 0.3);
-  const FloorResult floor = findIn(tests::AnalyticRoom::furnished(), poses);
+  const auto poses = test::lookAround(8, 0.3, 0.9, 0.3);
+  const FloorResult floor = findIn(test::AnalyticRoom::furnished(), poses);
   ASSERT_EQ(floor.status, FloorStatus::kFound);
   EXPECT_NEAR(floor.camera_height_m, 0.9, 0.01);
 }
@@ -95,7 +95,7 @@ TEST(FloorFinder, LooksStraightDown) {
   FloorConfig config;
   config.max_tilt_rad = 1.5;
   FloorFinder finder(config);
-  const tests::AnalyticRoom room({{-3.0, -3.0, 0.0}, {3.0, 3.0, 2.5}, {200, 200, 200}}, {});
+  const test::AnalyticRoom room({{-3.0, -3.0, 0.0}, {3.0, 3.0, 2.5}, {200, 200, 200}}, {});
   for (int i = 0; i < 4; ++i) {
     finder.add(room.render(kCamera, T_map_camera).depth_m, kCamera, T_map_camera);
   }
@@ -116,9 +116,9 @@ TEST(FloorFinder, NothingAddedAndNothingSeenAreDifferent) {
 }
 
 TEST(FloorFinder, SameBitsAgain) {
-  const auto poses = tests::lookAround(8, 0.3, 1.3, 0.5);
-  const FloorResult first = findIn(tests::AnalyticRoom::furnished(), poses);
-  const FloorResult again = findIn(tests::AnalyticRoom::furnished(), poses);
+  const auto poses = test::lookAround(8, 0.3, 1.3, 0.5);
+  const FloorResult first = findIn(test::AnalyticRoom::furnished(), poses);
+  const FloorResult again = findIn(test::AnalyticRoom::furnished(), poses);
   EXPECT_EQ(first.T_map_world.matrix(), again.T_map_world.matrix());
 }
 

@@ -14,10 +14,10 @@ namespace oikos::mapping {
 namespace {
 
 TsdfVolume fuseRoom(int threads) {
-  const tests::AnalyticRoom room = tests::AnalyticRoom::furnished();
+  const test::AnalyticRoom room = test::AnalyticRoom::furnished();
   const camera::PinholeCamera camera{320, 240, 260.0, 260.0, 159.5, 119.5};
   TsdfVolume volume(TsdfConfig{}, threads);
-  for (const Eigen::Isometry3d& T_map_camera : tests::lookAround(12, 0.3, 1.3, 0.5)) {
+  for (const Eigen::Isometry3d& T_map_camera : test::lookAround(12, 0.3, 1.3, 0.5)) {
     const camera::RgbdFrame frame = room.render(camera, T_map_camera);
     volume.integrate({frame, camera, T_map_camera});
   }
@@ -31,7 +31,7 @@ double areaM2(const geometry::ColoredMesh& mesh, const std::array<std::uint32_t,
 }
 
 TEST(MeshExtraction, LiesOnTheRoomsSurfaces) {
-  const tests::AnalyticRoom room = tests::AnalyticRoom::furnished();
+  const test::AnalyticRoom room = test::AnalyticRoom::furnished();
   geometry::ColoredMesh mesh = extractMesh(fuseRoom(1), 1);
   removeSpecks(100, mesh);
   ASSERT_GT(mesh.vertices.points.size(), 20000U);
@@ -48,7 +48,7 @@ TEST(MeshExtraction, LiesOnTheRoomsSurfaces) {
 }
 
 TEST(MeshExtraction, TrianglesFaceFreeSpace) {
-  const tests::AnalyticRoom room = tests::AnalyticRoom::furnished();
+  const test::AnalyticRoom room = test::AnalyticRoom::furnished();
   const geometry::ColoredMesh mesh = extractMesh(fuseRoom(1), 1);
   double outwards_m2 = 0.0;
   double all_m2 = 0.0;

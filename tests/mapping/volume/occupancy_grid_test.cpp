@@ -12,18 +12,19 @@
 #include "core/base/error.h"
 #include "mapping/volume/depth_scan.h"
 #include "tests/support/analytic_room.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oikos::mapping {
 namespace {
 
 OccupancyIntegrator occupancyOfRoom() {
-  const tests::AnalyticRoom room = tests::AnalyticRoom::furnished();
-  const camera::PinholeCamera camera = tests::smallCamera();
+  const test::AnalyticRoom room = test::AnalyticRoom::furnished();
+  const camera::PinholeCamera camera = test::smallCamera();
   OccupancyConfig config;
   config.pixel_stride = 1;
   OccupancyIntegrator occupancy(config, 1);
-  for (const Eigen::Isometry3d& T_map_camera : tests::lookAround(24, 0.3, 1.3, 0.5)) {
+  for (const Eigen::Isometry3d& T_map_camera : test::lookAround(24, 0.3, 1.3, 0.5)) {
     const camera::RgbdFrame frame = room.render(camera, T_map_camera);
     occupancy.insert(makeScan({frame, camera, T_map_camera}, config));
   }
@@ -86,7 +87,7 @@ TEST(OccupancyGrid, IsWrittenAsMapServerReadsIt) {
   grid.width = 3;
   grid.height = 2;
   grid.cells = {Cell::kOccupied, Cell::kFree, Cell::kUnknown, Cell::kFree, Cell::kFree, Cell::kOccupied};
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   writeGrid(grid, folder.path());
   EXPECT_EQ(contents(folder.path() / "grid.pgm"), std::string("P5\n3 2\n255\n\xfe\xfe\0\0\xfe\xcd", 17));
   EXPECT_EQ(contents(folder.path() / "grid.yaml"),
@@ -99,8 +100,8 @@ TEST(OccupancyGrid, FullDiskIsAnError) {
   grid.width = 1000;
   grid.height = 1000;
   grid.cells.assign(1000000, Cell::kFree);
-  const tests::TemporaryFolder folder;
-  std::filesystem::create_symlink("/dev/full", folder.path() / "grid.pgm.part");
+  const test::TemporaryFolder folder;
+  const test::FileSizeLimit limit(1000);
   EXPECT_THROW(writeGrid(grid, folder.path()), base::Error);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "grid.pgm"));
 }

@@ -15,6 +15,7 @@
 #include "mapping/volume/octomap_files.h"
 #include "mapping/volume/octomap_tree.h"
 #include "tests/support/analytic_room.h"
+#include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oikos::mapping {
@@ -240,9 +241,13 @@ TEST(OctomapFiles, FullDiskIsAnErrorThatNamesTheFile) {
   for (const OccupancyScan& scan : roomScans(occupancy.config(), 2)) {
     occupancy.insert(scan);
   }
-  for (const char* name : {"octomap.bt", "octomap.ot"}) {
+  const test::TemporaryFolder whole;
+  writeOctomap(occupancy, whole.path());
+  const std::uintmax_t bt_bytes = std::filesystem::file_size(whole.path() / "octomap.bt");
+  ASSERT_LT(bt_bytes, std::filesystem::file_size(whole.path() / "octomap.ot"));
+  for (const auto& [name, room_bytes] : {std::pair{"octomap.bt", bt_bytes - 1}, {"octomap.ot", bt_bytes}}) {
     const test::TemporaryFolder folder;
-    std::filesystem::create_symlink("/dev/full", folder.path() / (std::string(name) + ".part"));
+    const test::FileSizeLimit limit(room_bytes);
     try {
       writeOctomap(occupancy, folder.path());
       FAIL() << name;
@@ -250,6 +255,7 @@ TEST(OctomapFiles, FullDiskIsAnErrorThatNamesTheFile) {
       EXPECT_EQ(error.code(), base::ErrorCode::kIo);
       EXPECT_EQ(error.where(), (folder.path() / name).string());
     }
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / name));
   }
 }
 

@@ -35,9 +35,9 @@ camera::RgbdFrame onePixel(float depth_m, const cv::Vec3b& bgr) {
 }
 
 VoxelCloud lookAround(const std::vector<std::size_t>& order) {
-  const tests::AnalyticRoom room = tests::AnalyticRoom::furnished();
-  const camera::PinholeCamera camera = tests::smallCamera();
-  const auto poses = tests::lookAround(8, 0.3, 1.3, 0.4);
+  const test::AnalyticRoom room = test::AnalyticRoom::furnished();
+  const camera::PinholeCamera camera = test::smallCamera();
+  const auto poses = test::lookAround(8, 0.3, 1.3, 0.4);
   VoxelCloud cloud({0.02, 1, 1});
   for (const std::size_t i : order) {
     const camera::RgbdFrame frame = room.render(camera, poses[i]);
@@ -93,7 +93,7 @@ TEST(VoxelCloud, OrderOfFramesDoesNotMatter) {
 }
 
 TEST(VoxelCloud, LiesOnTheRoomsSurfaces) {
-  const tests::AnalyticRoom room = tests::AnalyticRoom::furnished();
+  const test::AnalyticRoom room = test::AnalyticRoom::furnished();
   const geometry::ColoredCloud cloud = extract(lookAround({0, 1, 2, 3, 4, 5, 6, 7}));
   double largest_m = 0.0;
   for (const Eigen::Vector3f& point : cloud.points) {
@@ -103,7 +103,7 @@ TEST(VoxelCloud, LiesOnTheRoomsSurfaces) {
 }
 
 TEST(VoxelCloud, IsReadBackFromItsFile) {
-  const tests::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const VoxelCloud cloud = lookAround({0, 1});
   cloud.write(folder.path() / "cloud.ply");
   const geometry::ColoredCloud read = geometry::readPly(folder.path() / "cloud.ply");

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/graph/bundle_adjustment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "tests/mapping/graph/simulated_bundle.h"
+
+namespace oikos::mapping {
+namespace {
+
+bool sameBits(const KeyframeGraph& a, const KeyframeGraph& b) {
+  for (std::size_t n = 0; n < a.nodes.size(); ++n) {
+    if (std::memcmp(a.nodes[n].T_world_camera.data(), b.nodes[n].T_world_camera.data(), 16 * sizeof(double)) != 0) {
+      return false;
+    }
+  }
+  for (std::size_t l = 0; l < a.landmarks.size(); ++l) {
+    if (std::memcmp(&a.landmarks[l].inverse_depth, &b.landmarks[l].inverse_depth, sizeof(double)) != 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+TEST(BundleAdjustment, ExactSightingsGiveTheTruth) {
+  SimulatedBundle bundle({.pixel_sigma_px = 0.0, .depth_sigmas = 0.0});
+  BundleAdjustmentConfig config;
+  config.max_iterations = 50;
+  ASSERT_GT(bundle.worstError_m(), 0.02);
+  const BundleAdjustmentResult result = adjustBundle(bundle.graph, bundle.camera, 0.0, Readout::kFixed, config);
+  EXPECT_TRUE(result.usable);
+  EXPECT_GT(result.sightings, 1000);
+  EXPECT_LT(bundle.worstError_m(), 1e-4);  // pixels and readings are kept as floats
+  EXPECT_LT(bundle.worstTurn_rad(), 1e-4);
+  EXPECT_LT(bundle.rmsDepthError_m(), 1e-4);
+  EXPECT_LT(result.rms_px, 0.01);
+  EXPECT_LT(result.final_cost, 1e-3 * result.initial_cost);
+}
+
+/// 0.3 px at 2 m and 525 px focal length is 1.1 mm of one sighting; each node has more than 100.
+TEST(BundleAdjustment, NoiseIsAveraged) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    SimulatedBundle bundle({.seed = seed});
+    const double depth_before_m = bundle.rmsDepthError_m();
+    const BundleAdjustmentResult result = adjustBundle(bundle.graph, bundle.camera, 0.0, Readout::kFixed, {});
+    EXPECT_TRUE(result.usable);
+    EXPECT_LT(bundle.worstError_m(), 0.002) << "seed " << seed;
+    EXPECT_LT(bundle.worstTurn_rad(), 0.001) << "seed " << seed;
+    EXPECT_LT(bundle.rmsDepthError_m(), 0.5 * depth_before_m) << "seed " << seed;
+    EXPECT_NEAR(result.rms_px, 0.3 * std::sqrt(2.0), 0.06) << "seed " << seed;
+  }
+}
+
+TEST(BundleAdjustment, OutliersAreTheKernelsBusiness) {
+  SimulatedBundle bundle({.seed = 4});
+  int spoiled = 0;
+  for (Node& node : bundle.graph.nodes) {
+    for (std::size_t i = 0; i < node.observations.size(); i += 10) {
+      node.observations[i].pixel += Eigen::Vector2f(25.0F, -18.0F);
+      ++spoiled;
+    }
+  }
+  ASSERT_GT(spoiled, 100);
+  ASSERT_TRUE(adjustBundle(bundle.graph, bundle.camera, 0.0, Readout::kFixed, {}).usable);
+  EXPECT_LT(bundle.worstError_m(), 0.005);
+  EXPECT_LT(bundle.worstTurn_rad(), 0.0025);
+}
+
+TEST(BundleAdjustment, FindsTheReadOutTime) {
+  SimulatedBundle bundle({.seed = 5, .readout_s = 0.02});
+  BundleAdjustmentConfig config;
+  config.max_iterations = 50;
+  const BundleAdjustmentResult result = adjustBundle(bundle.graph, bundle.camera, 0.0, Readout::kRefined, config);
+  ASSERT_TRUE(result.usable);
+  EXPECT_NEAR(result.readout_s, 0.02, 0.001);
+  EXPECT_LT(bundle.worstError_m(), 0.003);
+}
+
+TEST(BundleAdjustment, FindsNoReadOutTimeWhereThereIsNone) {
+  SimulatedBundle bundle({.seed = 6});
+  const BundleAdjustmentResult result = adjustBundle(bundle.graph, bundle.camera, 0.0, Readout::kRefined, {});
+  ASSERT_TRUE(result.usable);
+  EXPECT_NEAR(result.readout_s, 0.0, 0.001);
+}
+
+TEST(BundleAdjustment, AFixedReadOutTimeStaysAndIsUsed) {
+  SimulatedBundle right({.seed = 7, .readout_s = 0.02});
+  SimulatedBundle ignored({.seed = 7, .readout_s = 0.02});
+  const BundleAdjustmentResult with = adjustBundle(right.graph, right.camera, 0.02, Readout::kFixed, {});
+  const BundleAdjustmentResult without = adjustBundle(ignored.graph, ignored.camera, 0.0, Readout::kFixed, {});
+  EXPECT_EQ(with.readout_s, 0.02);
+  EXPECT_EQ(without.readout_s, 0.0);
+  EXPECT_LT(with.final_cost, 0.5 * without.final_cost);
+  EXPECT_LT(right.worstError_m(), 0.003);
+  EXPECT_LT(right.worstError_m(), ignored.worstError_m());
+}
+
+TEST(BundleAdjustment, WithoutSightingsNothingIsTouched) {
+  SimulatedBundle bundle({.seed = 8});
+  for (Node& node : bundle.graph.nodes) {
+    node.observations.clear();
+  }
+  const KeyframeGraph before = bundle.graph;
+  const BundleAdjustmentResult result = adjustBundle(bundle.graph, bundle.camera, 0.01, Readout::kRefined, {});
+  EXPECT_FALSE(result.usable);
+  EXPECT_EQ(result.sightings, 0);
+  EXPECT_EQ(result.readout_s, 0.01);
+  EXPECT_TRUE(sameBits(bundle.graph, before));
+}
+
+TEST(BundleAdjustment, AnEmptyGraphIsNotUsable) {
+  KeyframeGraph graph;
+  EXPECT_FALSE(adjustBundle(graph, {640, 480, 525.0, 525.0, 319.5, 239.5}, 0.0, Readout::kFixed, {}).usable);
+}
+
+TEST(BundleAdjustment, EachSubmapHasItsAnchor) {
+  SimulatedBundle bundle({.seed = 9});
+  for (std::size_t n = 0; n < bundle.graph.nodes.size(); ++n) {
+    Node& node = bundle.graph.nodes[n];
+    node.submap = n < 5 ? 0 : 1;
+    std::erase_if(node.observations,
+                  [&](const Observation& o) { return (bundle.graph.landmarks[static_cast<std::size_t>(o.landmark)].host < 5) != (n < 5); });
+  }
+  const KeyframeGraph before = bundle.graph;
+  ASSERT_TRUE(adjustBundle(bundle.graph, bundle.camera, 0.0, Readout::kFixed, {}).usable);
+  const auto shift_m = [&](std::size_t n) {
+    return (bundle.graph.nodes[n].T_world_camera.translation() - before.nodes[n].T_world_camera.translation()).norm();
+  };
+  EXPECT_LT(shift_m(0), 1e-12);
+  EXPECT_LT(shift_m(5), 1e-12);
+  EXPECT_GT(shift_m(3), 1e-3);
+  EXPECT_GT(shift_m(7), 1e-3);
+}
+
+TEST(BundleAdjustment, ASightingWithoutAReadingStillCounts) {
+  SimulatedBundle bundle({.seed = 10});
+  for (Node& node : bundle.graph.nodes) {
+    for (Observation& o : node.observations) {
+      o.depth_m = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  ASSERT_TRUE(adjustBundle(bundle.graph, bundle.camera, 0.0, Readout::kFixed, {}).usable);
+  EXPECT_LT(bundle.worstError_m(), 0.003);
+}
+
+TEST(BundleAdjustment, SameBitsTwice) {
+  SimulatedBundle first({.seed = 11, .readout_s = 0.01});
+  SimulatedBundle second({.seed = 11, .readout_s = 0.01});
+  const BundleAdjustmentResult a = adjustBundle(first.graph, first.camera, 0.0, Readout::kRefined, {});
+  const BundleAdjustmentResult b = adjustBundle(second.graph, second.camera, 0.0, Readout::kRefined, {});
+  EXPECT_TRUE(sameBits(first.graph, second.graph));
+  EXPECT_EQ(std::memcmp(&a.readout_s, &b.readout_s, sizeof(double)), 0);
+  EXPECT_EQ(std::memcmp(&a.final_cost, &b.final_cost, sizeof(double)), 0);
+}
+
+}  // namespace
+}  // namespace oikos::mapping

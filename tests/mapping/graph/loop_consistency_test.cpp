@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/graph/loop_consistency.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "tests/mapping/graph/simulated_drive.h"
+
+namespace oikos::mapping {
+namespace {
+
+constexpr int kLap = SimulatedDrive::kNodesPerLap;
+
+/// True loops between the laps, `step` nodes apart.
+std::vector<std::size_t> closeLaps(SimulatedDrive& drive, int step) {
+  std::vector<std::size_t> edges;
+  for (int n = 0; n < kLap; n += step) {
+    edges.push_back(drive.addLoop(n, n + kLap));
+  }
+  return edges;
+}
+
+int countBelieved(const std::vector<char>& believed, const std::vector<std::size_t>& edges) {
+  int count = 0;
+  for (const std::size_t e : edges) {
+    count += believed[e] != 0 ? 1 : 0;
+  }
+  return count;
+}
+
+Eigen::Isometry3d shiftBy(double x_m, double y_m, double z_m) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x_m, y_m, z_m));
+}
+
+TEST(LoopConsistency, OdometryIsAlwaysBelieved) {
+  const SimulatedDrive drive(1);
+  for (const char believed : consistentEdges(drive.graph, {})) {
+    EXPECT_NE(believed, 0);
+  }
+}
+
+TEST(LoopConsistency, BelievesTrueLoopsInSpiteOfDrift) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    SimulatedDrive drive(seed);
+    const auto loops = closeLaps(drive, 2);
+    EXPECT_EQ(countBelieved(consistentEdges(drive.graph, {}), loops), static_cast<int>(loops.size())) << "seed " << seed;
+  }
+}
+
+TEST(LoopConsistency, DropsASingleWrongLoop) {
+  SimulatedDrive drive(2);
+  const auto loops = closeLaps(drive, 4);
+  const std::size_t wrong = drive.addWrongLoop(5, 25, Eigen::Isometry3d::Identity());  // opposite sides taken for one
+  const auto believed = consistentEdges(drive.graph, {});
+  EXPECT_EQ(believed[wrong], 0);
+  EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
+}
+
+TEST(LoopConsistency, DropsWrongLoopsThatAreThreeInTen) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    SimulatedDrive drive(seed);
+    const auto loops = closeLaps(drive, 2);                                                    // 20 true ones,
+    const auto wrong = drive.addRandomWrongLoops(static_cast<int>(loops.size()) * 3 / 7 + 1);  // 9 of 29 wrong
+    const auto believed = consistentEdges(drive.graph, {});
+    EXPECT_EQ(countBelieved(believed, wrong), 0) << "seed " << seed;
+    EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size())) << "seed " << seed;
+  }
+}
+
+TEST(LoopConsistency, DropsAPairOfWrongLoopsThatAgreeWithEachOther) {
+  SimulatedDrive drive(3);
+  const auto loops = closeLaps(drive, 5);
+  const Eigen::Isometry3d T_5_25 = shiftBy(0.1, 0.0, 0.2);
+  const Eigen::Isometry3d T_6_26 = drive.trueMotion(6, 5) * T_5_25 * drive.trueMotion(25, 26);
+  const auto wrong = {drive.addWrongLoop(5, 25, T_5_25), drive.addWrongLoop(6, 26, T_6_26)};
+  const auto believed = consistentEdges(drive.graph, {});
+  EXPECT_EQ(countBelieved(believed, wrong), 0);
+  EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
+}
+
+/// Two sides of the square look alike: seven views of one are taken for views of the other.
+TEST(LoopConsistency, DropsAPlaceTakenForItsTwin) {
+  SimulatedDrive drive(4);
+  const auto loops = closeLaps(drive, 3);
+  std::vector<std::size_t> wrong;
+  for (int n = 2; n < 9; ++n) {
+    wrong.push_back(drive.addWrongLoop(n, n + 10, Eigen::Isometry3d::Identity()));
+  }
+  const auto believed = consistentEdges(drive.graph, {});
+  EXPECT_EQ(countBelieved(believed, wrong), 0);
+  EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
+}
+
+TEST(LoopConsistency, BelievesALoneLoopThatTheOdometryBears) {
+  SimulatedDrive drive(5);
+  const std::size_t loop = drive.addLoop(3, 3 + kLap);
+  EXPECT_NE(consistentEdges(drive.graph, {})[loop], 0);
+}
+
+TEST(LoopConsistency, DoubtsALoneLoopThatTheOdometryContradicts) {
+  SimulatedDrive drive(5);
+  const std::size_t far = drive.addWrongLoop(5, 15, Eigen::Isometry3d::Identity());
+  EXPECT_EQ(consistentEdges(drive.graph, {})[far], 0);
+}
+
+TEST(LoopConsistency, ALoneLoopMayJoinTwoSubmapsIfItIsStrong) {
+  SimulatedDrive drive(6);
+  drive.breakAt(kLap, shiftBy(7.0, 0.0, 0.0));
+  const std::size_t loop = drive.addLoop(4, 4 + kLap);
+  drive.graph.edges[loop].inliers = 40;
+  EXPECT_NE(consistentEdges(drive.graph, {}, 40)[loop], 0);
+  drive.graph.edges[loop].inliers = 39;
+  EXPECT_EQ(consistentEdges(drive.graph, {}, 40)[loop], 0);
+}
+
+TEST(LoopConsistency, LoopsBetweenSubmapsAreJudgedByEachOther) {
+  SimulatedDrive drive(7);
+  drive.breakAt(kLap, Eigen::Isometry3d(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ())));
+  const auto loops = closeLaps(drive, 8);
+  const std::size_t wrong = drive.addWrongLoop(5, kLap + 25, Eigen::Isometry3d::Identity());
+  const auto believed = consistentEdges(drive.graph, {});
+  EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
+  EXPECT_EQ(believed[wrong], 0);
+}
+
+/// A drive that changes between two sub-maps makes loops in both directions; they speak of the same thing.
+TEST(LoopConsistency, LoopsBetweenSubmapsAreJudgedTogetherInBothDirections) {
+  SimulatedDrive drive(8);
+  drive.breakAt(kLap, shiftBy(0.0, 5.0, 0.0));
+  const auto loops = closeLaps(drive, 8);
+  const std::size_t back = drive.addLoop(kLap + 12, 12);
+  const std::size_t wrong = drive.addWrongLoop(kLap + 25, 5, Eigen::Isometry3d::Identity());
+  const auto believed = consistentEdges(drive.graph, {});
+  EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
+  EXPECT_NE(believed[back], 0);
+  EXPECT_EQ(believed[wrong], 0);
+}
+
+TEST(LoopConsistency, AnOdometryEdgeBackwardsBreaksTheContract) {
+  SimulatedDrive drive(9);
+  std::swap(drive.graph.edges[3].from, drive.graph.edges[3].to);
+  EXPECT_THROW(static_cast<void>(consistentEdges(drive.graph, {})), base::ContractViolation);
+}
+
+}  // namespace
+}  // namespace oikos::mapping
