@@ -56,8 +56,10 @@ void printMachine(const Options& options) {
   std::strftime(date, sizeof date, "%F", std::gmtime(&now));
   double load[1] = {0.0};
   (void)getloadavg(load, 1);
-  std::printf("%s, %s, %u processors, load %.1f at the start\n", date, processorName().c_str(), std::thread::hardware_concurrency(), load[0]);
-  std::printf("%s threads, best of %d", options.command.threads > 0 ? std::to_string(options.command.threads).c_str() : "default", options.repeat);
+  std::printf("%s, %s, %u processors, load %.1f at the start\n", date, processorName().c_str(), std::thread::hardware_concurrency(),
+              load[0]);
+  std::printf("%s threads, best of %d", options.command.threads > 0 ? std::to_string(options.command.threads).c_str() : "default",
+              options.repeat);
   for (const std::string& setting : options.command.settings) {
     std::printf(", %s", setting.c_str());
   }

@@ -27,6 +27,7 @@ struct BenchRecording {
 [[nodiscard]] std::filesystem::path sourceFolder(const std::string& name, const std::filesystem::path& data);
 
 /// Opens the recording; a variant is written into `scratch`. Throws base::Error if the source is not as expected.
-[[nodiscard]] BenchRecording prepareRecording(const std::string& name, const std::filesystem::path& data, const std::filesystem::path& scratch);
+[[nodiscard]] BenchRecording prepareRecording(const std::string& name, const std::filesystem::path& data,
+                                              const std::filesystem::path& scratch);
 
 }  // namespace oikos::bench
