@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every product of mapping/volume from a recording with given poses: what each one costs a keyframe, and holds in memory.
-//   volume_bench RECORDING TRAJECTORY OUT_FOLDER [EVERY_NTH_FRAME [THREADS]]
+//   volume_bench [RECORDING TRAJECTORY OUT_FOLDER [EVERY_NTH_FRAME [THREADS]]]
+// Without arguments: OIKOS_DATA/kitchen with its reference poses, into a temporary folder.
 #include <sys/resource.h>
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -22,6 +24,7 @@
 #include "mapping/volume/octomap_files.h"
 #include "mapping/volume/tsdf_volume.h"
 #include "mapping/volume/voxel_cloud.h"
+#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -131,12 +134,27 @@ void run(const std::vector<std::string>& arguments) {
               mesh.vertices.points.size(), mesh.triangles.size(), static_cast<double>(usage.ru_maxrss) / 1000.0);
 }
 
+void runOnKitchen() {
+  const char* const data = std::getenv("OIKOS_DATA");
+  const std::string kitchen = data != nullptr ? std::string(data) + "/kitchen" : "";
+  if (!std::filesystem::is_directory(kitchen)) {
+    std::printf("SKIPPED: volume_bench needs a recording with poses, or OIKOS_DATA with kitchen in it\n");
+    return;
+  }
+  const test::TemporaryFolder out;
+  run({kitchen, kitchen + "/groundtruth_sfm.txt", out.path().string(), "8"});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
+    if (argc == 1) {
+      runOnKitchen();
+      return 0;
+    }
     if (argc < 4) {
-      std::fprintf(stderr, "volume_bench RECORDING TRAJECTORY OUT_FOLDER [EVERY_NTH_FRAME [THREADS]]\n");
+      std::fprintf(stderr, "volume_bench [RECORDING TRAJECTORY OUT_FOLDER [EVERY_NTH_FRAME [THREADS]]]\n");
       return 2;
     }
     run({argv + 1, argv + argc});
