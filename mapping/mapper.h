@@ -52,7 +52,7 @@ struct MapRun {
   int threads = 1;
   std::int64_t seed = 0;
   std::optional<Eigen::Isometry3d> T_base_camera;  ///< the camera's mount; nothing: that of the recording's calibration, if it has one
-  base::ProgressSink progress;
+  base::ProgressSink progress = {};
 };
 
 /// What came of it, for the summary; the whole of it stands in `report.json`.
