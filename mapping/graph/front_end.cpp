@@ -197,24 +197,14 @@ bool FrontEnd::keyframeDue(const FollowResult& seen) const {
          T_node_camera.translation().norm() > config_.keyframe_parallax * mean_depth_m;
 }
 
-/// Landmarks that should be in view and are not looked for any more, enough to make up for those that a keyframe is due for.
-bool FrontEnd::onKnownGround(const std::vector<int>& landmarks, const Eigen::Isometry3d& T_world_camera) const {
-  const std::set<int> active(active_.begin(), active_.end());
-  const auto returning = std::count_if(landmarks.begin(), landmarks.end(), [&](int id) {
-    const Landmark& landmark = result_.graph.landmarks[static_cast<std::size_t>(id)];
-    const Node& host = result_.graph.nodes[static_cast<std::size_t>(landmark.host)];
-    const Eigen::Vector3d p = T_world_camera.inverse() * (host.T_world_camera * pointInHost(landmark, camera_));
-    return p.z() > 0.1 && camera_.contains(camera_.project(p), config_.follower.border_px) && !active.contains(id);
-  });
-  return static_cast<double>(returning) >= (1.0 - config_.keyframe_overlap) * seen_at_keyframe_;
-}
-
 /// On known ground the landmarks of nearby keyframes may do instead of a new keyframe.
 bool FrontEnd::borrowFromNeighbours(const Current& current, FollowResult& seen) {
-  std::vector<int> landmarks = landmarksOf(neighbourhood(reference_, config_.neighbourhood));
-  if (!onKnownGround(landmarks, seen.pose.T_world_camera)) {
-    return false;
+  const std::vector<int> nodes = neighbourhood(reference_, config_.neighbourhood);
+  const int head = static_cast<int>(result_.graph.nodes.size()) - 1;
+  if (nodes.back() == head && nodes.front() >= head - 4 * config_.neighbourhood) {
+    return false;  // at the head of the drive, and no earlier stretch beside it: all neighbours are in use already
   }
+  std::vector<int> landmarks = landmarksOf(nodes);
   FollowResult more = follow(current, seen.pose.T_world_camera, landmarks);
   if (!more.tracked || more.pose.inliers <= seen.pose.inliers) {
     return false;

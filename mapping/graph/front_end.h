@@ -106,7 +106,6 @@ class FrontEnd {
                                     const std::vector<int>& landmarks) const;
   [[nodiscard]] std::optional<FollowResult> recover(Current& current);
   [[nodiscard]] bool keyframeDue(const FollowResult& seen) const;
-  [[nodiscard]] bool onKnownGround(const std::vector<int>& landmarks, const Eigen::Isometry3d& T_world_camera) const;
   bool borrowFromNeighbours(const Current& current, FollowResult& seen);
   void addKeyframe(Current& current, FollowResult& seen);
   struct Revisit;
