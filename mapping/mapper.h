@@ -51,7 +51,8 @@ struct MapConfig {
 struct MapRun {
   int threads = 1;
   std::int64_t seed = 0;
-  std::optional<Eigen::Isometry3d> T_base_camera;  ///< the camera's mount; nothing: that of the recording's calibration, if it has one
+  std::optional<Eigen::Isometry3d> T_base_camera =
+      std::nullopt;  ///< the camera's mount; nothing: that of the recording's calibration, if it has one
   base::ProgressSink progress = {};
 };
 

@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
         Rejection{"BrokenId", "VERTEX_SE3:QUAT 0.5 0 0 0 0 0 0 1\n", {"1", "'0.5'", "an id"}},
         Rejection{"HugeId", "VERTEX_SE3:QUAT 1e300 0 0 0 0 0 0 1\n", {"1", "'1e300'", "an id"}},
         Rejection{"SameIdTwice", std::string(kTwoVertices) + "VERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n", {"4", "vertex 1", "twice"}}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& parameter) { return std::string(parameter.param.name); });
 
 TEST(G2oFile, AMissingFileIsAnIoError) {
   const test::TemporaryFolder folder;

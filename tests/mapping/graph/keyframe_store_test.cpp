@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Damage{"DepthIsNoDepth", "UPDATE keyframe SET depth_png = color_jpeg WHERE id = 3", {"keyframe 3", "picture"}},
                     Damage{"CutFeatures", "UPDATE keyframe SET features = x'0102' WHERE id = 3", {"keyframe 3", "2 bytes"}},
                     Damage{"CutLandmarks", "UPDATE keyframe SET landmarks = x'010203' WHERE id = 3", {"keyframe 3", "3 bytes"}}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& parameter) { return std::string(parameter.param.name); });
 
 TEST(KeyframeStore, ATextFileIsNotAStore) {
   const test::TemporaryFolder folder;
