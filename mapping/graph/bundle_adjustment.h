@@ -11,12 +11,12 @@ namespace oikos::mapping {
 
 struct BundleAdjustmentConfig {
   int max_iterations = 20;
-  double function_tolerance = 5e-4;    ///< a step that lowers the cost by a smaller share is the last
-  double pixel_sigma_px = 0.5;         ///< of one sighting at pyramid level 0
-  double cauchy_sigmas = 2.0;          ///< robust kernel of sightings
-  double host_depth_weight = 1.0;      ///< of the information of the host's reading
-  double sighting_depth_weight = 0.2;  ///< of that of the other readings: they share errors with each other
-  double readout_sigma_s = 0.02;       ///< prior of the read-out time, about 0
+  double function_tolerance = 5e-4;     ///< a step that lowers the cost by a smaller share is the last
+  double pixel_sigma_px = 0.5;          ///< of one sighting at pyramid level 0
+  double cauchy_sigmas = 2.0;           ///< robust kernel of sightings
+  double host_depth_weight = 1.0;       ///< of the information of the host's reading
+  double sighting_depth_weight = 0.05;  ///< of that of the other readings: they share errors with each other
+  double readout_sigma_s = 0.02;        ///< prior of the read-out time, about 0
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
