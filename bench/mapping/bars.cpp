@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/mapping/bars.h"
 
-#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <optional>
+#include <string>
 
 namespace oikos::bench {
 
@@ -100,10 +100,9 @@ const Bar kBars[] = {
     {"ten laps / one, peak memory", "x", 2, Wish::kAtMost, 1.5, 1.1, kNone, kNone, [](const Scores& s) { return lapRatio(s, peakMb); }},
 };
 
+/// Of the value as it is, not as it is rounded for the table.
 const char* verdict(const Bar& bar, double limit, double value) {
-  const double unit = std::pow(10.0, bar.decimals);
-  const double rounded = std::round(value * unit) / unit;  // judged as it is printed
-  return (bar.wish == Wish::kAtMost ? rounded <= limit : rounded >= limit) ? "met" : "NOT MET";
+  return (bar.wish == Wish::kAtMost ? value <= limit : value >= limit) ? "met" : "NOT MET";
 }
 
 std::string limitText(const Bar& bar, double limit, double value) {
