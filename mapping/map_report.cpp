@@ -11,6 +11,7 @@ namespace {
 
 RecordingFacts recordingFacts(const MapFacts& facts) {
   RecordingFacts r;
+  r.format = facts.recording.format();
   r.frames_listed = facts.statistics.listed;
   r.frames_read = facts.statistics.read;
   r.skipped = facts.statistics.unreadable;
@@ -147,6 +148,12 @@ MapReport makeReport(const MapFacts& facts) {
                   facts.floor.camera_height_m};
   report.volume = volumeFacts(facts);
   report.grid = gridPicture(facts.fused.grid);
+  if (facts.odometry_without_mount) {
+    report.warnings.emplace_back(
+        "odometry.txt was not used: where the camera sits on the robot is not known. Give T_base_camera in camera.toml, or --robot, "
+        "--base-link "
+        "and --camera-link.");
+  }
   return report;
 }
 

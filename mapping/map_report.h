@@ -20,6 +20,7 @@ struct MapFacts {
   const FusedMap& fused;
   const std::vector<char>& coasting;  ///< one a frame: carried by odometry
   const VolumeConfig& volume;
+  bool odometry_without_mount = false;  ///< there is an odometry.txt that could not be used
 };
 
 [[nodiscard]] MapReport makeReport(const MapFacts& facts);

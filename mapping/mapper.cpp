@@ -113,7 +113,9 @@ class Mapper {
   }
 
   void optimise() {
-    odometry_ = OdometryPriors(recording_.findOdometry(), T_base_camera_);
+    const std::optional<recording::Trajectory> T_odom_base = recording_.findOdometry();
+    odometry_without_mount_ = T_odom_base && !T_base_camera_;
+    odometry_ = OdometryPriors(T_odom_base, T_base_camera_);
     const BackEndTools tools{recording_.camera(),
                              config_.front_end.follower,
                              images_,
@@ -232,7 +234,8 @@ class Mapper {
     }
     writeG2o(drive_.graph, optimised_.believed, folder_ / "graph.g2o");
     base::writeFileAtomically(folder_ / "config.toml", base::writeConfig(config_));
-    const MapReport report = makeReport({recording_, statistics_, drive_, optimised_, floor_, fused_, coasting_, config_.volume});
+    const MapReport report =
+        makeReport({recording_, statistics_, drive_, optimised_, floor_, fused_, coasting_, config_.volume, odometry_without_mount_});
     base::writeFileAtomically(folder_ / "report.json", reportJson(report));
     base::writeFileAtomically(folder_ / "report.html", reportHtml(report));
     clock_.end();
@@ -273,6 +276,7 @@ class Mapper {
   recording::StreamStatistics statistics_;
   FrontEndResult drive_;
   OdometryPriors odometry_;
+  bool odometry_without_mount_ = false;
   BackEndResult optimised_;
   std::vector<char> coasting_;
   FloorResult floor_;

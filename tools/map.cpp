@@ -115,7 +115,7 @@ void printText(const Summary& summary) {
     std::cout << result.skipped_frames << " frames could not be read\n";
   }
   if (result.lost_frames > 0) {
-    std::cout << result.lost_frames << " frames were lost and have the last pose before them\n";
+    std::cout << result.lost_frames << " frames were lost and have a pose between those before and after them\n";
   }
   if (result.submaps > 1) {
     std::cout << "the drive fell into " << result.submaps << " parts that no loop has joined\n";

@@ -20,6 +20,7 @@ struct ListedFrame {
 
 /// A recording's frames by stamp.
 struct Listing {
+  std::string format;  ///< for a person
   std::vector<ListedFrame> frames;
   ListingStatistics statistics;
 };

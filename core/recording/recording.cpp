@@ -32,6 +32,7 @@ class FolderRecording : public Recording {
   [[nodiscard]] const camera::PinholeCamera& camera() const override { return calibration_.color; }
   [[nodiscard]] int frameCount() const override { return static_cast<int>(listing_.frames.size()); }
   [[nodiscard]] std::int64_t stampNs(int index) const override { return frame(index).stamp_ns; }
+  [[nodiscard]] std::string format() const override { return listing_.format; }
   [[nodiscard]] ListingStatistics listing() const override { return listing_.statistics; }
   [[nodiscard]] std::optional<Eigen::Isometry3d> T_base_camera() const override { return calibration_.T_base_camera; }
   [[nodiscard]] std::optional<std::int64_t> startNs() const override { return calibration_.start_ns; }
@@ -148,6 +149,7 @@ std::unique_ptr<Recording> openRecording(const fs::path& folder, const Recording
   }
   const camera::Calibration calibration = findCalibration(folder, config);
   Listing listing = is_tum ? listTum(folder, std::llround(config.max_association_s * 1e9)) : listSevenScenes(folder, calibration.rate_hz);
+  listing.format = is_tum ? "TUM RGB-D" : "7-Scenes";
   return std::make_unique<FolderRecording>(folder, calibration, std::move(listing));
 }
 

@@ -43,6 +43,8 @@ class Recording {
   /// Decodes, rectifies and registers one frame. Thread-safe. Throws Error{kInput} that names the file.
   [[nodiscard]] virtual camera::RgbdFrame read(int index, Channels channels) const = 0;
 
+  /// Name of the format for a person: "TUM RGB-D", "7-Scenes".
+  [[nodiscard]] virtual std::string format() const { return "in memory"; }
   [[nodiscard]] virtual ListingStatistics listing() const { return {}; }
   /// `T_odom_base` from `odometry.txt`, if the recording has one. Throws Error with file and line if it is wrong.
   [[nodiscard]] virtual std::optional<Trajectory> findOdometry() const { return std::nullopt; }
