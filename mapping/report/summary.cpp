@@ -76,7 +76,7 @@ void judgeTracking(const MapReport& report, const ReportFigures& figures, Findin
     findings.push_back(
         {weight,
          "The camera was lost in " + countedText(figures.lost, "frame", "frames") + " (" + shareText(figures.lost, figures.frames) + "), " +
-             whereLost(report) + " of the drive; each keeps the pose before it.",
+             whereLost(report) + " of the drive; each has a pose between those about it.",
          weight == MapVerdict::kUsable ? "" : "Drive these stretches again, slower, and turn where there is something to see."});
   }
   if (const int apart = report.submaps - report.submaps_joined; apart > 0) {
