@@ -42,10 +42,9 @@ struct Chunk {
 /// Walks through the chunks of a file and checks length and checksum of each.
 class ChunkReader {
  public:
-  ChunkReader(std::string_view bytes, const std::filesystem::path& file) : rest_(bytes), file_(file) {
+  ChunkReader(std::string_view bytes, const std::string& where) : rest_(bytes), where_(where) {
     if (!bytes.starts_with(kSignature)) {
-      throw Error(ErrorCode::kInput, bytes.empty() ? "the file is empty" : "not a PNG file; depth must be a 16-bit grey PNG",
-                  file.string());
+      throw Error(ErrorCode::kInput, bytes.empty() ? "the file is empty" : "not a PNG file; depth must be a 16-bit grey PNG", where);
     }
     rest_.remove_prefix(kSignature.size());
   }
@@ -65,16 +64,16 @@ class ChunkReader {
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
-    throw Error(ErrorCode::kInput, "truncated or corrupt image (" + reason + ")", file_.string());
+    throw Error(ErrorCode::kInput, "truncated or corrupt image (" + reason + ")", where_);
   }
 
  private:
   std::string_view rest_;
-  const std::filesystem::path& file_;
+  const std::string& where_;
 };
 
 /// An empty image of the header's size.
-cv::Mat readHeader(const Chunk& chunk, const ChunkReader& reader, const std::filesystem::path& file) {
+cv::Mat readHeader(const Chunk& chunk, const ChunkReader& reader, const std::string& where) {
   constexpr std::size_t kHeaderBytes = 13;
   constexpr std::uint32_t kLargestSize_px = 16384;
   if (chunk.type != "IHDR" || chunk.data.size() != kHeaderBytes) {
@@ -86,12 +85,11 @@ cv::Mat readHeader(const Chunk& chunk, const ChunkReader& reader, const std::fil
   const int color_type = chunk.data[9];
   const int interlace = chunk.data[12];
   if (bits != 16) {
-    throw Error(ErrorCode::kInput, std::to_string(bits) + "-bit depth; depth must be a 16-bit grey PNG", file.string());
+    throw Error(ErrorCode::kInput, std::to_string(bits) + "-bit depth; depth must be a 16-bit grey PNG", where);
   }
   if (color_type != 0 || interlace != 0) {
     throw Error(ErrorCode::kInput,
-                std::string(color_type != 0 ? "not a grey" : "an interlaced") + " PNG; depth must be a plain 16-bit grey PNG",
-                file.string());
+                std::string(color_type != 0 ? "not a grey" : "an interlaced") + " PNG; depth must be a plain 16-bit grey PNG", where);
   }
   if (width == 0 || height == 0 || width > kLargestSize_px || height > kLargestSize_px) {
     reader.fail("its size is " + std::to_string(width) + "x" + std::to_string(height));
@@ -186,9 +184,9 @@ void toNative(const Byte* row, cv::Mat& depth, int v) {
 
 }  // namespace
 
-cv::Mat decodeDepthPng(const std::string& bytes, const std::filesystem::path& file) {
-  ChunkReader reader(bytes, file);
-  cv::Mat depth = readHeader(reader.next(), reader, file);
+cv::Mat decodeDepthPng(std::string_view bytes, const std::string& where) {
+  ChunkReader reader(bytes, where);
+  cv::Mat depth = readHeader(reader.next(), reader, where);
   std::string compressed;
   for (Chunk chunk = reader.next(); chunk.type != "IEND"; chunk = reader.next()) {
     if (chunk.type == "IDAT") {

@@ -59,7 +59,7 @@ class Matcher {
           node.T_world_camera.linear().col(2).dot(host.T_world_camera.linear().col(2)) < min_cosine) {
         continue;
       }
-      const int expected = expectedInView(host, node);
+      const int expected = countInView(graph_, static_cast<int>(other), node.T_world_camera, camera_);
       if (expected >= config_.min_expected) {
         found.push_back({static_cast<int>(other), expected});
       }
@@ -69,16 +69,6 @@ class Matcher {
       found.resize(static_cast<std::size_t>(config_.max_partners));
     }
     return found;
-  }
-
-  [[nodiscard]] int expectedInView(const Node& host, const Node& node) const {
-    const Eigen::Isometry3d T_node_host = node.T_world_camera.inverse() * host.T_world_camera;
-    int count = 0;
-    for (const int id : host.hosted) {
-      const Eigen::Vector3d p = T_node_host * pointInHost(graph_.landmarks[static_cast<std::size_t>(id)], camera_);
-      count += p.z() > 0.1 && camera_.contains(camera_.project(p), follower_.border_px) ? 1 : 0;
-    }
-    return count;
   }
 
   const KeyframeGraph& graph_;

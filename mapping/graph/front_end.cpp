@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -148,7 +149,7 @@ std::optional<FollowResult> FrontEnd::recover(Current& current) {
     if (auto revisit = verify(current, {node, 0})) {
       ++result_.relocalisations;
       adopt(revisit->seen);
-      active_ = landmarksOf(neighbourhood(node, config_.neighbourhood));
+      active_ = localMap(neighbourhood(node, config_.neighbourhood), T_world_camera_);
       return std::move(revisit->seen);
     }
   }
@@ -164,14 +165,14 @@ std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const 
                       motion.rms_px,   LoopCheck::kTooFewMatches};
   std::optional<Revisit> revisit;
   if (motion.status == MotionStatus::kConverged) {
-    const std::vector<int> landmarks = landmarksOf(neighbourhood(candidate.place, 1));
-    FollowResult seen = follow(current, result_.graph.nodes[old].T_world_camera * motion.T_a_b, landmarks);
+    const Eigen::Isometry3d T_world_camera = result_.graph.nodes[old].T_world_camera * motion.T_a_b;
+    FollowResult seen = follow(current, T_world_camera, localMap(neighbourhood(candidate.place, 1), T_world_camera));
     attempt.verdict = LoopCheck::kGeometryDisagrees;
     if (seen.tracked) {
       attempt.verdict = LoopCheck::kAccepted;
       attempt.inliers = seen.pose.inliers;
       attempt.rms_px = seen.pose.rms_px;
-      const std::vector<int> own = landmarksOf({candidate.place});
+      const std::vector<int>& own = result_.graph.nodes[old].hosted;
       const auto again = std::count_if(seen.observations.begin(), seen.observations.end(),
                                        [&](const Observation& o) { return std::binary_search(own.begin(), own.end(), o.landmark); });
       revisit =
@@ -185,36 +186,54 @@ std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const 
 }
 
 bool FrontEnd::keyframeDue(const FollowResult& seen) const {
-  const Node& node = result_.graph.nodes[static_cast<std::size_t>(reference_)];
-  const Eigen::Isometry3d T_node_camera = node.T_world_camera.inverse() * seen.pose.T_world_camera;
-  const double turned_deg = Eigen::AngleAxisd(T_node_camera.linear()).angle() * 180.0 / 3.14159265358979;
+  return seen.pose.inliers < config_.keyframe_overlap * seen_at_keyframe_ || viewChange(seen) > 1.0;
+}
+
+/// From the nearest keyframe whose landmarks are seen, and the latest: 1 where a new one is due.
+double FrontEnd::viewChange(const FollowResult& seen) const {
+  std::set<int> hosts{latest_};
   double depth_sum = 0.0;
   for (const Observation& o : seen.observations) {
-    depth_sum += 1.0 / result_.graph.landmarks[static_cast<std::size_t>(o.landmark)].inverse_depth;
+    const Landmark& landmark = result_.graph.landmarks[static_cast<std::size_t>(o.landmark)];
+    hosts.insert(landmark.host);
+    depth_sum += 1.0 / landmark.inverse_depth;
   }
   const double mean_depth_m = depth_sum / std::max<double>(1.0, static_cast<double>(seen.observations.size()));
-  return seen.pose.inliers < config_.keyframe_overlap * seen_at_keyframe_ || turned_deg > config_.keyframe_rotation_deg ||
-         T_node_camera.translation().norm() > config_.keyframe_parallax * mean_depth_m;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int host : hosts) {
+    const Eigen::Isometry3d T_host_camera =
+        result_.graph.nodes[static_cast<std::size_t>(host)].T_world_camera.inverse() * seen.pose.T_world_camera;
+    const double turned_deg = Eigen::AngleAxisd(T_host_camera.linear()).angle() * 180.0 / 3.14159265358979;
+    const double moved = T_host_camera.translation().norm() / mean_depth_m;
+    least = std::min(least, std::max(turned_deg / config_.keyframe_rotation_deg, moved / config_.keyframe_parallax));
+  }
+  return least;
 }
 
 /// On known ground the landmarks of nearby keyframes may do instead of a new keyframe.
 bool FrontEnd::borrowFromNeighbours(const Current& current, FollowResult& seen) {
-  const std::vector<int> nodes = neighbourhood(reference_, config_.neighbourhood);
-  const int head = static_cast<int>(result_.graph.nodes.size()) - 1;
-  if (nodes.back() == head && nodes.front() >= head - 4 * config_.neighbourhood) {
-    return false;  // at the head of the drive, and no earlier stretch beside it: all neighbours are in use already
+  std::vector<int> landmarks = localMap(neighbourhood(reference_, config_.neighbourhood), seen.pose.T_world_camera);
+  if (seen.pose.inliers + unknownTo(active_, landmarks, seen.pose.T_world_camera) < seen_at_keyframe_) {
+    return false;  // new ground: the neighbours cannot give what has gone out of view
   }
-  std::vector<int> landmarks = landmarksOf(nodes);
   FollowResult more = follow(current, seen.pose.T_world_camera, landmarks);
-  if (!more.tracked || more.pose.inliers <= seen.pose.inliers) {
+  if (!more.tracked || more.pose.inliers < config_.borrow_gain * seen_at_keyframe_) {
     return false;
   }
   active_ = std::move(landmarks);
   seen = std::move(more);
   T_world_camera_ = seen.pose.T_world_camera;
   reference_ = mainHost(seen.observations);
-  seen_at_keyframe_ = std::max(seen_at_keyframe_ / 2, seen.pose.inliers);
+  seen_at_keyframe_ = seen.pose.inliers;
   return !keyframeDue(seen);
+}
+
+/// How many of the landmarks are in view and not among the active ones.
+int FrontEnd::unknownTo(const std::vector<int>& active, const std::vector<int>& landmarks, const Eigen::Isometry3d& T_world_camera) const {
+  const std::set<int> known(active.begin(), active.end());
+  return static_cast<int>(std::count_if(landmarks.begin(), landmarks.end(), [&](int id) {
+    return !known.contains(id) && isInView(result_.graph, id, T_world_camera, camera_);
+  }));
 }
 
 void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
@@ -248,7 +267,7 @@ void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
     ++result_.reused_keyframes;
     seen = best->seen;
     adopt(seen);
-    active_ = landmarksOf(neighbourhood(best->node, config_.neighbourhood));
+    active_ = localMap(neighbourhood(best->node, config_.neighbourhood), T_world_camera_);
     seen_at_keyframe_ = seen.pose.inliers;
     return;
   }
@@ -275,6 +294,7 @@ int FrontEnd::addNode(const Current& current, const Eigen::Isometry3d& T_world_c
   result_.graph.nodes.push_back(std::move(node));
   result_.features.emplace_back();
   const int id = static_cast<int>(result_.graph.nodes.size()) - 1;
+  latest_ = keyframe ? id : latest_;
   images_.put(current.frame.index, current.pyramid);
   return id;
 }
@@ -335,9 +355,20 @@ std::vector<int> FrontEnd::neighbourhood(int node, int rings) const {
   return {found.begin(), found.end()};
 }
 
-std::vector<int> FrontEnd::landmarksOf(const std::vector<int>& nodes) const {
-  std::vector<int> landmarks;
+/// What the few of these nodes host that share most with a camera there: however often a place is seen again, looking for its
+/// landmarks takes no longer.
+std::vector<int> FrontEnd::localMap(const std::vector<int>& nodes, const Eigen::Isometry3d& T_world_camera) const {
+  std::vector<std::pair<int, int>> hosts;  // landmarks in view, node
   for (const int node : nodes) {
+    const int in_view = countInView(result_.graph, node, T_world_camera, camera_);
+    if (in_view > 0) {
+      hosts.emplace_back(in_view, node);
+    }
+  }
+  std::stable_sort(hosts.begin(), hosts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  hosts.resize(std::min(hosts.size(), static_cast<std::size_t>(config_.local_keyframes)));
+  std::vector<int> landmarks;
+  for (const auto& [in_view, node] : hosts) {
     const auto& hosted = result_.graph.nodes[static_cast<std::size_t>(node)].hosted;
     landmarks.insert(landmarks.end(), hosted.begin(), hosted.end());
   }

@@ -28,6 +28,8 @@ struct FrontEndConfig {
   double keyframe_rotation_deg = 20.0;  ///< and when the view has turned by more than this
   double keyframe_parallax = 0.25;      ///< and when the camera has moved by more than this share of the median depth
   int neighbourhood = 3;                ///< keyframes this many edges away lend their landmarks
+  double borrow_gain = 1.2;             ///< they do instead of a new keyframe if they give this many times what the last one saw
+  int local_keyframes = 10;             ///< at most, those with most landmarks in view
   int loop_candidates = 4;              ///< places verified per keyframe
   int min_loop_votes = 15;
   double reuse_overlap = 0.6;  ///< share of an old keyframe's landmarks that must be seen again to take it instead of a new one
@@ -44,6 +46,8 @@ struct FrontEndConfig {
     visitor("keyframe_rotation_deg", keyframe_rotation_deg);
     visitor("keyframe_parallax", keyframe_parallax);
     visitor("neighbourhood", neighbourhood);
+    visitor("borrow_gain", borrow_gain);
+    visitor("local_keyframes", local_keyframes);
     visitor("loop_candidates", loop_candidates);
     visitor("min_loop_votes", min_loop_votes);
     visitor("reuse_overlap", reuse_overlap);
@@ -106,7 +110,10 @@ class FrontEnd {
                                     const std::vector<int>& landmarks) const;
   [[nodiscard]] std::optional<FollowResult> recover(Current& current);
   [[nodiscard]] bool keyframeDue(const FollowResult& seen) const;
+  [[nodiscard]] double viewChange(const FollowResult& seen) const;
   bool borrowFromNeighbours(const Current& current, FollowResult& seen);
+  [[nodiscard]] int unknownTo(const std::vector<int>& active, const std::vector<int>& landmarks,
+                              const Eigen::Isometry3d& T_world_camera) const;
   void addKeyframe(Current& current, FollowResult& seen);
   struct Revisit;
   [[nodiscard]] std::optional<Revisit> verify(const Current& current, const PlaceIndex::Candidate& candidate);
@@ -116,7 +123,7 @@ class FrontEnd {
   void host(const Current& current, int node, const std::vector<Observation>& seen);
   [[nodiscard]] int mainHost(const std::vector<Observation>& observations) const;
   [[nodiscard]] std::vector<int> neighbourhood(int node, int rings) const;
-  [[nodiscard]] std::vector<int> landmarksOf(const std::vector<int>& nodes) const;
+  [[nodiscard]] std::vector<int> localMap(const std::vector<int>& nodes, const Eigen::Isometry3d& T_world_camera) const;
   void adopt(const FollowResult& seen);
 
   camera::PinholeCamera camera_;
@@ -127,6 +134,7 @@ class FrontEnd {
   PlaceIndex places_;
   std::vector<int> active_;  ///< landmarks looked for in the next frame
   int reference_ = -1;       ///< node whose landmarks are seen most
+  int latest_ = -1;          ///< keyframe
   int seen_at_keyframe_ = 0;
   int lost_in_a_row_ = 0;
   Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity();

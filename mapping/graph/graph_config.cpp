@@ -16,6 +16,8 @@ std::vector<std::string> FrontEndConfig::validate() const {
                 "must be > 0 and <= 180");
   rules.greater("keyframe_parallax", keyframe_parallax, 0.0)
       .atLeast("neighbourhood", neighbourhood, 0)
+      .greater("borrow_gain", borrow_gain, 0.0)
+      .atLeast("local_keyframes", local_keyframes, 1)
       .atLeast("loop_candidates", loop_candidates, 0)
       .atLeast("min_loop_votes", min_loop_votes, 1)
       .between("reuse_overlap", reuse_overlap, 0.0, 1.0)

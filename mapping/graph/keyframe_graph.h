@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/camera/pinhole_camera.h"
 #include "core/geometry/se3.h"
 #include "mapping/odometry/landmark.h"
 
@@ -41,5 +42,12 @@ struct KeyframeGraph {
   std::vector<Landmark> landmarks;
   std::vector<Edge> edges;
 };
+
+/// Whether a camera there has the landmark in its image, whatever stands before it.
+[[nodiscard]] bool isInView(const KeyframeGraph& graph, int landmark, const Eigen::Isometry3d& T_world_camera,
+                            const camera::PinholeCamera& camera);
+/// How many of those that the node hosts.
+[[nodiscard]] int countInView(const KeyframeGraph& graph, int node, const Eigen::Isometry3d& T_world_camera,
+                              const camera::PinholeCamera& camera);
 
 }  // namespace oikos::mapping

@@ -9,13 +9,15 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/geometry/pose_numbers.h"
+#include "core/recording/depth_png.h"
+#include "core/recording/image_codec.h"
 
 namespace oikos::mapping {
 
@@ -26,6 +28,7 @@ static_assert(std::endian::native == std::endian::little);
 constexpr const char* kFormat = "oikos-keyframes";
 constexpr int kVersion = 1;
 constexpr double kDepthUnitsPerMetre = 5000.0;
+constexpr int kJpegQuality = 92;
 constexpr const char* kSchema =
     "CREATE TABLE meta(key TEXT PRIMARY KEY, value) WITHOUT ROWID;"
     "CREATE TABLE keyframe(id INTEGER PRIMARY KEY, frame INTEGER NOT NULL, stamp_ns INTEGER NOT NULL, t_map_camera BLOB NOT NULL,"
@@ -54,12 +57,6 @@ std::vector<unsigned char> toBlob(const std::vector<Row>& rows) {
   return blob;
 }
 
-std::vector<unsigned char> encodeColor(const cv::Mat& color) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", color, bytes, {cv::IMWRITE_JPEG_QUALITY, 92});
-  return bytes;
-}
-
 std::vector<unsigned char> encodeDepth(const cv::Mat& depth_m) {
   cv::Mat units(depth_m.size(), CV_16UC1);
   for (int y = 0; y < depth_m.rows; ++y) {
@@ -70,9 +67,7 @@ std::vector<unsigned char> encodeDepth(const cv::Mat& depth_m) {
       out[x] = value > 0.0 && value < 65535.0 ? static_cast<std::uint16_t>(std::lround(value)) : std::uint16_t{0};
     }
   }
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", units, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
-  return bytes;
+  return recording::encodePng(units);
 }
 
 std::vector<unsigned char> encodeFeatures(const Features& features) {
@@ -177,16 +172,12 @@ std::vector<Row> fromBlob(const std::vector<unsigned char>& blob, const std::str
   return rows;
 }
 
-cv::Mat decodeImage(const std::vector<unsigned char>& bytes, int flags, int type, const std::string& where) {
-  cv::Mat image = bytes.empty() ? cv::Mat() : cv::imdecode(bytes, flags);
-  if (image.empty() || image.type() != type) {
-    throw base::Error(base::ErrorCode::kInput, "a keyframe's picture cannot be decoded", where);
-  }
-  return image;
+std::string_view textOf(const std::vector<unsigned char>& blob) {
+  return {reinterpret_cast<const char*>(blob.data()), blob.size()};
 }
 
 cv::Mat decodeDepth(const std::vector<unsigned char>& bytes, const std::string& where) {
-  const cv::Mat units = decodeImage(bytes, cv::IMREAD_UNCHANGED, CV_16UC1, where);
+  const cv::Mat units = recording::decodeDepthPng(textOf(bytes), where);
   cv::Mat depth_m(units.size(), CV_32FC1);
   for (int y = 0; y < units.rows; ++y) {
     for (int x = 0; x < units.cols; ++x) {
@@ -217,7 +208,7 @@ StoredKeyframe readRow(const Statement& row, const std::string& file) {
   k.frame = static_cast<int>(row.integer(1));
   k.stamp_ns = row.integer(2);
   k.T_map_camera = decodePose(fromBlob<double>(row.blob(3), where), where);
-  k.color = decodeImage(row.blob(4), cv::IMREAD_COLOR, CV_8UC3, where);
+  k.color = recording::decodeColorImage(textOf(row.blob(4)), where);
   k.depth_m = decodeDepth(row.blob(5), where);
   for (const FeatureRow& f : fromBlob<FeatureRow>(row.blob(6), where)) {
     k.features.pixel.emplace_back(f.pixel[0], f.pixel[1]);
@@ -289,7 +280,7 @@ KeyframeStoreWriter::KeyframeStoreWriter(const std::filesystem::path& file, cons
 KeyframeStoreWriter::~KeyframeStoreWriter() = default;
 
 EncodedPictures encodePictures(const cv::Mat& color, const cv::Mat& depth_m) {
-  return {encodeColor(color), encodeDepth(depth_m)};
+  return {recording::encodeJpeg(color, kJpegQuality), encodeDepth(depth_m)};
 }
 
 void KeyframeStoreWriter::add(const StoredKeyframe& keyframe, const EncodedPictures& pictures) {

@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/recording/image_codec.h"
 #include "mapping/report/html.h"
 #include "mapping/report/text.h"
 
@@ -98,8 +98,7 @@ std::string pngOf(const cv::Mat& cells) {
       }
     }
   }
-  std::vector<std::uint8_t> bytes;
-  OIKOS_CHECK(cv::imencode(".png", picture, bytes));
+  const std::vector<std::uint8_t> bytes = recording::encodePng(picture);
   return {bytes.begin(), bytes.end()};
 }
 

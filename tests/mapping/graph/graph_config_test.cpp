@@ -20,6 +20,8 @@ TEST(GraphConfig, FrontEnd) {
                                           {"keyframe_rotation_deg", "181", "must be > 0 and <= 180"},
                                           {"keyframe_parallax", "0", "must be > 0"},
                                           {"neighbourhood", "-1", "must be >= 0"},
+                                          {"borrow_gain", "0", "must be > 0"},
+                                          {"local_keyframes", "0", "must be >= 1"},
                                           {"loop_candidates", "-1", "must be >= 0"},
                                           {"loop_candidates", "0", ""},
                                           {"min_loop_votes", "0", "must be >= 1"},

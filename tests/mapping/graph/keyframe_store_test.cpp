@@ -191,9 +191,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Damage{"ShortPose", "UPDATE keyframe SET t_map_camera = zeroblob(48) WHERE id = 3", {"keyframe 3", "6 numbers", "7"}},
                     Damage{"CutPose", "UPDATE keyframe SET t_map_camera = zeroblob(50) WHERE id = 3", {"keyframe 3", "50 bytes"}},
                     Damage{"NoRotation", "UPDATE keyframe SET t_map_camera = zeroblob(56) WHERE id = 3", {"keyframe 3", "quaternion"}},
-                    Damage{"NoPicture", "UPDATE keyframe SET color_jpeg = x'' WHERE id = 3", {"keyframe 3", "picture"}},
-                    Damage{"BrokenPicture", "UPDATE keyframe SET color_jpeg = x'FFD8FF00' WHERE id = 3", {"keyframe 3", "picture"}},
-                    Damage{"DepthIsNoDepth", "UPDATE keyframe SET depth_png = color_jpeg WHERE id = 3", {"keyframe 3", "picture"}},
+                    Damage{"NoPicture", "UPDATE keyframe SET color_jpeg = x'' WHERE id = 3", {"keyframe 3", "empty"}},
+                    Damage{"BrokenPicture", "UPDATE keyframe SET color_jpeg = x'FFD8FF00' WHERE id = 3", {"keyframe 3", "corrupt image"}},
+                    Damage{"DepthIsNoDepth", "UPDATE keyframe SET depth_png = color_jpeg WHERE id = 3", {"keyframe 3", "16-bit grey PNG"}},
                     Damage{"CutFeatures", "UPDATE keyframe SET features = x'0102' WHERE id = 3", {"keyframe 3", "2 bytes"}},
                     Damage{"CutLandmarks", "UPDATE keyframe SET landmarks = x'010203' WHERE id = 3", {"keyframe 3", "3 bytes"}}),
     [](const auto& parameter) { return std::string(parameter.param.name); });
