@@ -48,8 +48,8 @@ void addFrames(const MapFacts& facts, MapReport& report) {
     const TrackedFrame& frame = facts.drive.frames[i];
     FrameFacts f;
     f.status = statusOf(frame, facts.coasting[i] != 0);
-    f.inliers = static_cast<int>(frame.observations.size());
-    f.residual_px = frame.observations.empty() ? std::numeric_limits<double>::quiet_NaN() : frame.rms_px;
+    f.inliers = frame.inliers;
+    f.residual_px = frame.inliers == 0 ? std::numeric_limits<double>::quiet_NaN() : frame.rms_px;
     f.is_keyframe = keyframes.contains(frame.frame);
     report.frames.push_back(f);
     report.trajectory.push_back({frame.stamp_ns, facts.optimised.T_world_frame[i]});

@@ -126,6 +126,21 @@ class Mapper {
     const std::vector<MotionPrior> priors = odometry_.betweenNodes(drive_.graph);
     optimised_ = optimiseDrive(drive_, priors, config_.back_end, tools);
     coasting_ = odometry_.carryLostFrames(drive_.frames, optimised_.T_world_frame);
+    forgetObservations();
+  }
+
+  /// Everything that only the optimisation needed: it grows with the drive, and fusion needs the room.
+  void forgetObservations() {
+    images_.clear();
+    for (TrackedFrame& frame : drive_.frames) {
+      frame.observations = {};
+    }
+    for (Node& node : drive_.graph.nodes) {
+      node.observations = {};
+    }
+    for (Edge& edge : drive_.graph.edges) {
+      edge.observations = {};
+    }
   }
 
   [[nodiscard]] FusionInput fusionInput() const {

@@ -133,11 +133,11 @@ class Builder {
 
   /// A reading far from what is expected is of another surface, or none.
   void addReading(const Landmark& landmark, std::size_t node, const Observation& o, Sighting& sighting) const {
-    if (!(o.depth_m > 0.0F)) {
+    const double depth_m = static_cast<float>(o.depth_m);
+    if (!(depth_m > 0.0)) {
       return;
     }
     constexpr double kGateSigmas = 4.0;
-    const double depth_m = static_cast<double>(o.depth_m);
     const Eigen::Vector3d p = graph_.nodes[node].T_world_camera.inverse() *
                               (graph_.nodes[static_cast<std::size_t>(landmark.host)].T_world_camera * pointInHost(landmark, camera_));
     const double sigma = inverseDepthSigma(depth_m);

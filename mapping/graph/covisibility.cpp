@@ -78,6 +78,27 @@ class Matcher {
   const CovisibilityConfig& config_;
 };
 
+/// Of a landmark seen from very many nodes an even choice is kept: the others say hardly more, and would let the refinement grow with
+/// every pass over a known place.
+int thinOut(KeyframeGraph& graph, int max_sightings) {
+  std::vector<int> seen(graph.landmarks.size(), 0);
+  for (const Node& node : graph.nodes) {
+    for (const Observation& o : node.observations) {
+      ++seen[static_cast<std::size_t>(o.landmark)];
+    }
+  }
+  std::vector<int> passed(graph.landmarks.size(), 0);
+  int removed = 0;
+  for (Node& node : graph.nodes) {
+    removed += static_cast<int>(std::erase_if(node.observations, [&](const Observation& o) {
+      const auto l = static_cast<std::size_t>(o.landmark);
+      const std::int64_t i = passed[l]++;
+      return seen[l] > max_sightings && i * max_sightings / seen[l] == (i + 1) * max_sightings / seen[l];
+    }));
+  }
+  return removed;
+}
+
 }  // namespace
 
 int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images,
@@ -91,7 +112,7 @@ int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& 
     observations.insert(observations.end(), found[n].begin(), found[n].end());
     added += static_cast<int>(found[n].size());
   }
-  return added;
+  return added - thinOut(graph, config.max_sightings);
 }
 
 }  // namespace oikos::mapping

@@ -15,6 +15,7 @@ struct CovisibilityConfig {
   int max_partners = 12;       ///< nodes that a node looks for landmarks of, those that should show most first
   int min_expected = 12;       ///< landmarks of a partner that should be in view
   double max_view_deg = 50.0;  ///< between the optical axes
+  int max_sightings = 10;      ///< of one landmark
   double gate_px = 4.0;        ///< a patch found farther from where the graph expects it is not the landmark
 
   template <class Visitor>
@@ -22,6 +23,7 @@ struct CovisibilityConfig {
     visitor("max_partners", max_partners);
     visitor("min_expected", min_expected);
     visitor("max_view_deg", max_view_deg);
+    visitor("max_sightings", max_sightings);
     visitor("gate_px", gate_px);
   }
   [[nodiscard]] std::vector<std::string> validate() const;

@@ -27,7 +27,7 @@ PoseSolution solveOne(const KeyframeGraph& graph, const TrackedFrame& frame, con
   for (const Observation& o : frame.observations) {
     const Landmark& landmark = graph.landmarks[static_cast<std::size_t>(o.landmark)];
     const Eigen::Vector2d pixel = o.pixel.cast<double>();
-    sightings.push_back({pointInWorld(graph, landmark, camera), pixel, static_cast<double>(o.depth_m), pixel_sigma_px * (1 << o.level),
+    sightings.push_back({pointInWorld(graph, landmark, camera), pixel, static_cast<float>(o.depth_m), pixel_sigma_px * (1 << o.level),
                          camera.rowTime_s(pixel.y())});
   }
   PoseSolverConfig config;

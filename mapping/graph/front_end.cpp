@@ -224,7 +224,6 @@ bool FrontEnd::borrowFromNeighbours(const Current& current, FollowResult& seen) 
   seen = std::move(more);
   T_world_camera_ = seen.pose.T_world_camera;
   reference_ = mainHost(seen.observations);
-  seen_at_keyframe_ = seen.pose.inliers;
   return !keyframeDue(seen);
 }
 
@@ -387,6 +386,7 @@ void FrontEnd::record(const Current& current, const FollowResult& seen, Tracking
   }
   if (status != TrackingStatus::kLost) {
     tracked.observations = seen.observations;
+    tracked.inliers = static_cast<int>(seen.observations.size());
     tracked.rms_px = seen.pose.rms_px;
   } else {
     ++result_.lost_frames;

@@ -65,7 +65,8 @@ struct TrackedFrame {
   TrackingStatus status = TrackingStatus::kLost;
   int reference = -1;  ///< node
   Eigen::Isometry3d T_reference_frame = Eigen::Isometry3d::Identity();
-  std::vector<Observation> observations;
+  std::vector<Observation> observations;  ///< until the poses are solved
+  int inliers = 0;
   double rms_px = 0.0;
 };
 

@@ -48,7 +48,7 @@ std::vector<std::string> PoseGraphConfig::validate() const {
 
 std::vector<std::string> CovisibilityConfig::validate() const {
   base::ConfigRules rules;
-  rules.atLeast("max_partners", max_partners, 0).atLeast("min_expected", min_expected, 0);
+  rules.atLeast("max_partners", max_partners, 0).atLeast("min_expected", min_expected, 0).atLeast("max_sightings", max_sightings, 1);
   rules.require(max_view_deg > 0.0 && max_view_deg <= 180.0, "max_view_deg", max_view_deg, "must be > 0 and <= 180");
   rules.greater("gate_px", gate_px, 0.0);
   return rules.messages();

@@ -27,6 +27,11 @@ std::shared_ptr<const ImagePyramid> KeyframeImages::get(int frame) {
   return pyramid;
 }
 
+void KeyframeImages::clear() {
+  const std::lock_guard lock(mutex_);
+  entries_.clear();
+}
+
 void KeyframeImages::evict() {
   while (entries_.size() > capacity_) {
     const auto oldest = std::min_element(entries_.begin(), entries_.end(),

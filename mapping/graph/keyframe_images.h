@@ -21,6 +21,7 @@ class KeyframeImages {
 
   void put(int frame, std::shared_ptr<const ImagePyramid> pyramid);
   [[nodiscard]] std::shared_ptr<const ImagePyramid> get(int frame);
+  void clear();
 
  private:
   struct Entry {

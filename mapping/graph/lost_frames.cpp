@@ -43,6 +43,7 @@ class Retry {
     found.status = TrackingStatus::kRelocalised;
     found.reference = frames_[neighbour].reference;
     found.T_reference_frame = graph_.nodes[static_cast<std::size_t>(found.reference)].T_world_camera.inverse() * seen.pose.T_world_camera;
+    found.inliers = static_cast<int>(seen.observations.size());
     found.observations = std::move(seen.observations);
     found.rms_px = seen.pose.rms_px;
     T_world_frame_[lost] = seen.pose.T_world_camera;

@@ -181,6 +181,7 @@ void PairwiseFrontEnd::record(const camera::RgbdFrame& frame, TrackingStatus sta
   const Eigen::Isometry3d& T_world_reference = result_.graph.nodes[static_cast<std::size_t>(reference)].T_world_camera;
   if (link != nullptr) {
     tracked.T_reference_frame = link->motion.T_a_b;
+    tracked.inliers = static_cast<int>(link->motion.inlier.size());
     tracked.rms_px = link->motion.rms_px;
   } else if (status == TrackingStatus::kLost) {
     tracked.T_reference_frame = T_world_reference.inverse() * T_world_camera_;

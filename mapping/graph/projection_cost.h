@@ -40,12 +40,13 @@ struct Sighting {
 ///   r = [ (pi(p) - seen_px) / sigma_px,  (d / p.z - measured) / sigma ]
 class SightingCost final : public ceres::SizedCostFunction<3, 7, 7, 1, 1> {
  public:
+  /// The camera must outlive the cost.
   SightingCost(const Sighting& sighting, const camera::PinholeCamera& camera) : sighting_(sighting), camera_(camera) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
 
  private:
   Sighting sighting_;
-  camera::PinholeCamera camera_;
+  const camera::PinholeCamera& camera_;
 };
 
 }  // namespace oikos::mapping

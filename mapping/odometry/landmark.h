@@ -22,13 +22,14 @@ struct Landmark {
   Eigen::Vector2d inverse_depth_gradient = Eigen::Vector2d::Zero();  ///< of the surface about it, 1/m per pixel
 };
 
-/// Where a landmark was seen.
+/// Where a landmark was seen. All frames keep theirs until the poses are solved: 16 bytes each.
 struct Observation {
   int landmark = -1;
-  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();          ///< level 0
-  float depth_m = std::numeric_limits<float>::quiet_NaN();  ///< the depth image's reading there; NaN = none
-  std::int8_t level = 0;                                    ///< pyramid level of the finest alignment: the error grows by 2^level
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();                      ///< level 0
+  Eigen::half depth_m = std::numeric_limits<Eigen::half>::quiet_NaN();  ///< the depth image's reading there (0.05 %); NaN = none
+  std::int8_t level = 0;  ///< pyramid level of the finest alignment: the error grows by 2^level
 };
+static_assert(sizeof(Observation) == 16);
 
 [[nodiscard]] inline Eigen::Vector3d pointInHost(const Landmark& landmark, const camera::PinholeCamera& camera) {
   return camera.ray(landmark.pixel.x(), landmark.pixel.y()) / landmark.inverse_depth;

@@ -177,7 +177,7 @@ FollowResult followLandmarks(const TargetView& view, const std::vector<Candidate
     if (solved.pose.inlier[k] != 0) {
       const std::size_t i = solved.candidate[k];
       result.observations.push_back(
-          {candidates[i].landmark, sightings.pixel[i]->cast<float>(), depthAt(view, *sightings.pixel[i]), sightings.level[i]});
+          {candidates[i].landmark, sightings.pixel[i]->cast<float>(), Eigen::half(depthAt(view, *sightings.pixel[i])), sightings.level[i]});
     }
   }
   result.tracked = result.pose.inliers >= config.min_inliers && result.pose.inliers >= config.min_inlier_ratio * result.found;
@@ -197,7 +197,7 @@ std::vector<Observation> findLandmarks(const TargetView& view, const std::vector
     const PatchMatch match = alignPatch(*candidate.host, *view.pyramid, *query, config.patch);
     if (match.found && match.level == 0 && (match.target_px - query->start_px).norm() < gate_px &&
         view.camera->contains(match.target_px, 1.0)) {
-      observations.push_back({candidate.landmark, match.target_px.cast<float>(), depthAt(view, match.target_px), 0});
+      observations.push_back({candidate.landmark, match.target_px.cast<float>(), Eigen::half(depthAt(view, match.target_px)), 0});
     }
   }
   return observations;

@@ -140,7 +140,7 @@ TEST(BundleAdjustment, ASightingWithoutAReadingStillCounts) {
   SimulatedBundle bundle({.seed = 10});
   for (Node& node : bundle.graph.nodes) {
     for (Observation& o : node.observations) {
-      o.depth_m = std::numeric_limits<float>::quiet_NaN();
+      o.depth_m = std::numeric_limits<Eigen::half>::quiet_NaN();
     }
   }
   ASSERT_TRUE(adjustBundle(bundle.graph, bundle.camera, 0.0, Readout::kFixed, {}).usable);

@@ -59,6 +59,7 @@ TEST(GraphConfig, Covisibility) {
   test::checkConfigRules<CovisibilityConfig>({{"max_partners", "-1", "must be >= 0"},
                                               {"max_partners", "0", ""},
                                               {"min_expected", "-1", "must be >= 0"},
+                                              {"max_sightings", "0", "must be >= 1"},
                                               {"max_view_deg", "0", "must be > 0 and <= 180"},
                                               {"max_view_deg", "200", "must be > 0 and <= 180"},
                                               {"gate_px", "nan", "must be > 0"}});

@@ -77,7 +77,7 @@ void SimulatedBundle::observe() {
       if (p.z() > 0.1 && camera.contains(camera.project(p), 5.0)) {
         const Eigen::Vector2d pixel = camera.project(p) + Eigen::Vector2d(normal(config_.pixel_sigma_px), normal(config_.pixel_sigma_px));
         const double reading_m = p.z() + normal(config_.depth_sigmas * depthSigma_m(p.z()));
-        graph.nodes[n].observations.push_back({static_cast<int>(l), pixel.cast<float>(), static_cast<float>(reading_m), 0});
+        graph.nodes[n].observations.push_back({static_cast<int>(l), pixel.cast<float>(), Eigen::half(static_cast<float>(reading_m)), 0});
       }
     }
   }

@@ -98,7 +98,7 @@ TEST_F(LandmarkFollowerTest, ObservationsAreWhereThePointsProject) {
     EXPECT_GT(seen.landmark, previous) << "not in the candidates' order";
     previous = seen.landmark;
     const float depth_m = moved.frame.depth_m.at<float>(static_cast<int>(seen.pixel.y() + 0.5F), static_cast<int>(seen.pixel.x() + 0.5F));
-    EXPECT_EQ(seen.depth_m, depth_m);
+    EXPECT_EQ(seen.depth_m, Eigen::half(depth_m));
     EXPECT_GE(seen.level, 0);
   }
   std::sort(errors_px.begin(), errors_px.end());
@@ -121,7 +121,7 @@ TEST_F(LandmarkFollowerTest, WorksWithoutDepth) {
   const FollowResult result = followLandmarks({&camera_, &moved.pyramid, nullptr}, candidates_, T_map_moved_, config_);
   ASSERT_TRUE(result.tracked);
   expectPose(result.pose, T_map_moved_);
-  EXPECT_TRUE(std::isnan(result.observations.front().depth_m));
+  EXPECT_TRUE(std::isnan(static_cast<float>(result.observations.front().depth_m)));
 }
 
 TEST_F(LandmarkFollowerTest, ASeenAgainSmallerOrLargerSurfaceIsFollowed) {
