@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace oikos::semantic {
+
+/// A pose as home.xml writes it, R = Rz(yaw) Ry(pitch) Rx(roll); what it is a pose of, and in which frame, says the name of its member.
+struct Pose {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d roll_pitch_yaw_rad = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] Eigen::Isometry3d toIsometry() const {
+    return Eigen::Translation3d(position_m) * Eigen::AngleAxisd(roll_pitch_yaw_rad.z(), Eigen::Vector3d::UnitZ()) *
+           Eigen::AngleAxisd(roll_pitch_yaw_rad.y(), Eigen::Vector3d::UnitY()) *
+           Eigen::AngleAxisd(roll_pitch_yaw_rad.x(), Eigen::Vector3d::UnitX());
+  }
+  bool operator==(const Pose&) const = default;
+};
+
+/// A box with its centre's pose in the frame of what it bounds.
+struct Box {
+  Pose center;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+  bool operator==(const Box&) const = default;
+};
+
+}  // namespace oikos::semantic

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "semantic/model/finding.h"
+#include "semantic/model/home.h"
+
+namespace oikos::semantic {
+
+struct HomeReading {
+  bool complete = false;  ///< the file was read to its end; `home` is what stands in it, right or wrong
+  Home home;
+  std::vector<Finding> findings;
+};
+
+/// Reads home.xml: what the schema refuses and what checkHome finds, all of it, in the order of the lines. Throws Error{kIo} if the file
+/// cannot be read.
+[[nodiscard]] HomeReading readHome(const std::filesystem::path& file);
+
+}  // namespace oikos::semantic
