@@ -54,6 +54,7 @@ CLI::App& addCommand(CLI::App& parent, const CommandText& text);
 void setAction(CLI::App& command, Action action);
 
 // One file each: tools/NAME.cpp.
+void addAskCommand(CLI::App& root);
 void addCheckCommand(CLI::App& root);
 void addEvaluateCommand(CLI::App& root);
 void addInspectCommand(CLI::App& root);

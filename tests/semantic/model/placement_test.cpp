@@ -72,7 +72,7 @@ TEST(Placement, ACupInADrawerMovesWithTheDrawer) {
   object.id = {"chest"};
   object.T_map_object = {{5.0, 1.0, 0.0}, {0.0, 0.0, kPi}};
   object.articulation = chest(0.0, 0.0);
-  const Pose T_drawer_cup{{0.1, 0.0, 0.02}, {}};
+  const Pose T_drawer_cup{.position_m = {0.1, 0.0, 0.02}};
   const Eigen::Vector3d shut_map = (*findCarrierInMap(object, "drawer") * T_drawer_cup.toIsometry()).translation();
   object.articulation->joints[0].value = 0.4;
   const Eigen::Vector3d open_map = (*findCarrierInMap(object, "drawer") * T_drawer_cup.toIsometry()).translation();

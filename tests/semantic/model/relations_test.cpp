@@ -6,9 +6,9 @@
 namespace oikos::semantic {
 namespace {
 
-const Box kTableTop{{{0.0, 0.0, 0.735}, {}}, {1.2, 0.8, 0.03}};
-const Box kCupboard{{{0.0, 0.0, 0.9}, {}}, {0.5, 1.0, 1.8}};
-const Box kCup{{{0.0, 0.0, 0.05}, {}}, {0.08, 0.08, 0.1}};
+const Box kTableTop{{.position_m = {0.0, 0.0, 0.735}}, {1.2, 0.8, 0.03}};
+const Box kCupboard{{.position_m = {0.0, 0.0, 0.9}}, {0.5, 1.0, 1.8}};
+const Box kCup{{.position_m = {0.0, 0.0, 0.05}}, {0.08, 0.08, 0.1}};
 
 Eigen::Isometry3d at(double x, double y, double z) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));

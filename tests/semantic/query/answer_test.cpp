@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semantic/query/answer.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "semantic/xml/home_reader.h"
+#include "tests/support/enum_table_check.h"
+
+namespace oikos::semantic {
+namespace {
+
+Home papersHouse() {
+  return readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml").home;
+}
+
+/// The papers' house after a while: the left cupboard door stands open, the blue cup is behind it, a bowl is on the bathroom's floor.
+Home laterHouse() {
+  Home home = papersHouse();
+  LargeObject& cupboard = home.rooms[0].objects[1];
+  cupboard.articulation->joints[0].value = 1.2;
+  std::vector<SmallObject>& on_table = home.rooms[0].objects[0].small_objects;
+  SmallObject cup = on_table[3];
+  cup.parent = "cupboard-body";
+  cup.relation = Relation::kIn;
+  cup.T_parent_object = {.position_m = {0.0, 0.2, 0.8}};
+  cupboard.small_objects.push_back(cup);
+  SmallObject bowl = on_table[1];
+  bowl.parent = "bathroom";
+  home.rooms[1].small_objects.push_back(bowl);
+  on_table.erase(on_table.begin() + 3);
+  on_table.erase(on_table.begin() + 1);
+  return home;
+}
+
+struct Row {
+  const char* question;
+  AnswerStatus status;
+  std::vector<std::string> ids;
+  const char* part_of_the_sentence;
+};
+
+void expectAnswers(const Home& home, const std::vector<Row>& rows) {
+  const HomeIndex index(home);
+  for (const Row& row : rows) {
+    const Answer answer = answerQuestion(index, row.question);
+    std::vector<std::string> ids;
+    for (const FoundThing& found : answer.found) {
+      ids.push_back(found.id);
+    }
+    EXPECT_EQ(answer.status, row.status) << row.question << "\n" << answer.sentence;
+    EXPECT_EQ(ids, row.ids) << row.question << "\n" << answer.sentence;
+    EXPECT_NE(answer.sentence.find(row.part_of_the_sentence), std::string::npos) << row.question << "\n" << answer.sentence;
+  }
+}
+
+constexpr AnswerStatus kAnswered = AnswerStatus::kAnswered;
+constexpr AnswerStatus kNothing = AnswerStatus::kNothingFits;
+constexpr AnswerStatus kUnknown = AnswerStatus::kUnknownWord;
+constexpr AnswerStatus kNotUnderstood = AnswerStatus::kNotUnderstood;
+
+TEST(Answer, AboutThePapersHouse) {
+  expectAnswers(
+      papersHouse(),
+      {{"where is the blue cup?", kAnswered, {"blue-cup"}, "The blue cup is on the kitchen table in the kitchen."},
+       {"Where's the sugar", kAnswered, {"sugar"}, "The sugar container is on the kitchen table"},
+       {"where are the cups", kAnswered, {"red-cup", "blue-cup"}, "2 things fit"},
+       {"can you tell me where the red cup is?", kAnswered, {"red-cup"}, "on the kitchen table"},
+       {"where can I find a bowl", kAnswered, {"bowl"}, "white bowl"},
+       {"find the mug on the table", kAnswered, {"red-cup", "blue-cup"}, ""},
+       {"where is the refrigerator", kAnswered, {"fridge"}, "The fridge is in the kitchen."},
+       {"where is the left door", kAnswered, {"cupboard-left"}, "left door of the cupboard"},
+       {"where is the green cup", kNothing, {}, "I know of no green cup."},
+       {"where is the cup in the bathroom", kNothing, {}, "in the bathroom"},
+       {"where is the ukulele", kUnknown, {}, "ukulele"},
+       {"what is on the table", kAnswered, {"red-cup", "bowl", "sugar", "blue-cup"}, "are on the table"},
+       {"which cups are on the table", kAnswered, {"red-cup", "blue-cup"}, ""},
+       {"what is under the table", kNothing, {}, "nothing under the table"},
+       {"what is in the kitchen", kAnswered, {"table", "red-cup", "bowl", "sugar", "blue-cup", "cupboard", "fridge"}, "and 2 more"},
+       {"how many cups are there in the kitchen", kAnswered, {"red-cup", "blue-cup"}, "2: "},
+       {"how many cups are in the bathroom", kAnswered, {}, "None."},
+       {"is there a bowl in the bathroom", kAnswered, {}, "Not that I know."},
+       {"is the blue cup on the table", kAnswered, {"blue-cup"}, "Yes"},
+       {"is the fridge open", kAnswered, {"fridge"}, "The fridge is closed."},
+       {"is the table open", kNothing, {}, "no way to open the table"},
+       {"which doors are open", kAnswered, {}, "None."},
+       {"which doors are closed", kAnswered, {"cupboard-left", "cupboard-right", "fridge-door"}, "closed"},
+       {"what is the thermostat set to", kAnswered, {"fridge-thermostat"}, "is set to 3"},
+       {"what is the fridge set to", kAnswered, {"fridge-thermostat"}, "is set to 3"},
+       {"what is the table set to", kNothing, {}, "nothing that could be set"},
+       {"where was the cup yesterday", kUnknown, {}, "yesterday"},
+       {"dance for me", kNotUnderstood, {}, "'dance'"},
+       {"where", kNotUnderstood, {}, ""},
+       {"", kNotUnderstood, {}, ""}});
+}
+
+TEST(Answer, AboutTheHouseLater) {
+  expectAnswers(laterHouse(), {{"where is the blue cup", kAnswered, {"blue-cup"}, "The blue cup is in the cupboard in the kitchen."},
+                               {"where is the bowl", kAnswered, {"bowl"}, "on the floor in the bathroom"},
+                               {"what is in the cupboard", kAnswered, {"blue-cup"}, "The blue cup is in the cupboard."},
+                               {"what is in the bathroom", kAnswered, {"bowl"}, ""},
+                               {"which doors are open", kAnswered, {"cupboard-left"}, "open by 69 degrees"},
+                               {"how far is the left door open", kAnswered, {"cupboard-left"}, "69 degrees"},
+                               {"is the cupboard open", kAnswered, {"cupboard"}, "its right door is closed"}});
+}
+
+TEST(Answer, SaysWhereToStandAndWhatToOpenFirst) {
+  const Home home = laterHouse();
+  const HomeIndex index(home);
+  const Answer answer = answerQuestion(index, "where is the blue cup");
+  ASSERT_EQ(answer.found.size(), 1U);
+  const FoundThing& cup = answer.found[0];
+  EXPECT_EQ(cup.parent, "cupboard-body");
+  EXPECT_EQ(cup.relation, Relation::kIn);
+  ASSERT_EQ(cup.joints_to_move.size(), 1U);  // the left one is open
+  EXPECT_EQ(cup.joints_to_move[0].id, "cupboard-right-hinge");
+  ASSERT_EQ(cup.T_map_base.size(), 1U);
+  // The cupboard stands at (3.2, 1.2), turned by 180 degrees; the robot 1.1 m before it, looking at it.
+  EXPECT_LT((cup.T_map_base[0].translation() - Eigen::Vector3d(2.1, 1.2, 0.0)).norm(), 1e-12);
+  EXPECT_LT((cup.T_map_base[0].linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_LT((cup.T_map_thing.translation() - Eigen::Vector3d(3.2, 1.0, 0.8)).norm(), 1e-12);
+}
+
+TEST(Answer, TheDefaultParkingPoseIsTriedFirst) {
+  Home home = papersHouse();
+  auto& parking = home.rooms[0].objects[0].parking_poses;
+  std::swap(parking[0], parking[2]);
+  const HomeIndex index(home);
+  const Answer answer = answerQuestion(index, "where is the table");
+  ASSERT_EQ(answer.found[0].T_map_base.size(), 3U);
+  EXPECT_NEAR(answer.found[0].T_map_base[0].translation().x(), 0.7, 1e-12);
+}
+
+TEST(Answer, TwentyOfManyAndTheNumberOfAll) {
+  Home home = papersHouse();
+  auto& on_table = home.rooms[0].objects[0].small_objects;
+  for (int i = 0; i < 40; ++i) {
+    SmallObject spoon = on_table[0];
+    spoon.id = {"spoon-" + std::to_string(i)};
+    spoon.type = "spoon";
+    on_table.push_back(spoon);
+  }
+  const HomeIndex index(home);
+  const Answer answer = answerQuestion(index, "where are the spoons");
+  EXPECT_EQ(answer.found.size(), 20U);
+  EXPECT_EQ(answer.total, 40U);
+  EXPECT_NE(answer.sentence.find("35 more"), std::string::npos) << answer.sentence;
+}
+
+TEST(Answer, AsJson) {
+  const Home home = papersHouse();
+  const HomeIndex index(home);
+  const auto json = nlohmann::json::parse(toJson(answerQuestion(index, "where is the blue cup")));
+  EXPECT_EQ(json["status"], "answered");
+  EXPECT_EQ(json["total"], 1);
+  EXPECT_EQ(json["found"][0]["id"], "blue-cup");
+  EXPECT_DOUBLE_EQ(json["found"][0]["pose_map"]["x_m"], 2.1);
+  EXPECT_DOUBLE_EQ(json["found"][0]["pose_map"]["yaw_deg"], 30.0);
+  EXPECT_EQ(json["found"][0]["parking_poses_map"].size(), 3U);
+  EXPECT_TRUE(json["found"][0]["last_seen_ns"].is_null());
+  EXPECT_TRUE(nlohmann::json::accept(toJson(answerQuestion(index, "where is \xFF\xFE"))));
+}
+
+TEST(Answer, NoTextThrows) {
+  const Home home = papersHouse();
+  const HomeIndex index(home);
+  const std::vector<std::string> words{"where", "what",   "which", "is",   "are", "how", "many", "far",
+                                       "open",  "closed", "set",   "to",   "on",  "in",  "the",  "cup",
+                                       "table", "fridge", "there", "find", "s",   "",    "\xFF", "kitchen"};
+  std::uint32_t state = 7;
+  for (int i = 0; i < 20000; ++i) {
+    std::string question;
+    for (int k = 0; k < 6; ++k) {
+      state = state * 1664525U + 1013904223U;
+      question += words[(state >> 16) % words.size()] + " ";
+    }
+    EXPECT_NO_THROW((void)answerQuestion(index, question)) << question;
+  }
+}
+
+TEST(Answer, EnumTable) {
+  test::checkEnumTable(AnswerStatus::kNotUnderstood);
+}
+
+}  // namespace
+}  // namespace oikos::semantic

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semantic/query/home_index.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "semantic/xml/home_reader.h"
+
+namespace oikos::semantic {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// `count` cups on as many tables, each of a colour and a label of its own where `special` says so.
+Home manyCups(int count, int special) {
+  Home home;
+  home.vocabulary = builtInVocabulary();
+  Room& room = home.rooms.emplace_back();
+  room.id = {"hall"};
+  room.name = "hall";
+  LargeObject& table = room.objects.emplace_back();
+  table.id = {"table"};
+  table.type = "table";
+  for (int i = 0; i < count; ++i) {
+    SmallObject& cup = table.small_objects.emplace_back();
+    cup.id = {"c" + std::to_string(i)};
+    cup.type = "cup";
+    cup.parent = "table";
+    cup.properties = {{"color", i == special ? "blue" : "red"}};
+  }
+  return home;
+}
+
+std::vector<std::string> idsOf(const HomeIndex& index, const Words& words) {
+  std::vector<std::string> ids;
+  for (const std::uint32_t number : index.find(words).things) {
+    ids.push_back(index.thing(number).id());
+  }
+  return ids;
+}
+
+class PapersIndex : public testing::Test {
+ protected:
+  Home home_ = readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml").home;
+  HomeIndex index_{home_};
+};
+
+TEST_F(PapersIndex, EveryWordMustFit) {
+  EXPECT_EQ(idsOf(index_, {"cup"}), (Words{"red-cup", "blue-cup"}));
+  EXPECT_EQ(idsOf(index_, {"blue", "cup"}), (Words{"blue-cup"}));
+  EXPECT_EQ(idsOf(index_, {"cup", "the", "blue"}), (Words{"blue-cup"}));
+  EXPECT_TRUE(idsOf(index_, {"white", "cup"}).empty());
+}
+
+TEST_F(PapersIndex, SynonymsPluralsAndProperties) {
+  EXPECT_EQ(idsOf(index_, {"mugs"}), (Words{"red-cup", "blue-cup"}));
+  EXPECT_EQ(idsOf(index_, {"navy", "mug"}), (Words{"blue-cup"}));
+  EXPECT_EQ(idsOf(index_, {"sugar"}), (Words{"sugar"}));
+  EXPECT_EQ(idsOf(index_, {"refrigerator", "door"}), (Words{"fridge-door"}));
+}
+
+TEST_F(PapersIndex, AWordThatFitsNothingIsNotAnUnknownWord) {
+  EXPECT_TRUE(index_.find({"green", "cup"}).unknown.empty());
+  EXPECT_TRUE(index_.find({"green", "cup"}).things.empty());
+  EXPECT_EQ(index_.find({"ukulele"}).unknown, (Words{"ukulele"}));
+}
+
+TEST_F(PapersIndex, OneTypingErrorInFourLettersOrMore) {
+  for (const char* slip : {"bleu", "blu", "bblue", "blux"}) {
+    const bool long_enough = std::string(slip).size() >= 4;
+    EXPECT_EQ(index_.find({slip, "cup"}).unknown.empty(), long_enough) << slip;
+    EXPECT_EQ(idsOf(index_, {slip, "cup"}), long_enough ? Words{"blue-cup"} : Words{}) << slip;
+  }
+  EXPECT_EQ(index_.find({"bleu"}).corrected, (Words{"bleu -> blue"}));
+  EXPECT_EQ(index_.find({"frdige"}).corrected, (Words{"frdige -> fridge"}));
+  EXPECT_FALSE(index_.find({"frdgie"}).unknown.empty()) << "two errors";
+  EXPECT_TRUE(index_.find({"blue"}).corrected.empty());
+}
+
+TEST_F(PapersIndex, ByIdAndItsPlaceInTheMap) {
+  ASSERT_NE(index_.findById("blue-cup"), nullptr);
+  EXPECT_EQ(index_.findById("nothing"), nullptr);
+  const Eigen::Vector3d cup_map = index_.findById("blue-cup")->T_map_thing().translation();
+  EXPECT_LT((cup_map - Eigen::Vector3d(2.1, -0.05, 0.75)).norm(), 1e-12) << cup_map.transpose();
+}
+
+TEST(HomeIndex, FindsTheOneAmongMany) {
+  const Home home = manyCups(20000, 777);
+  const HomeIndex index(home);
+  EXPECT_EQ(idsOf(index, {"blue", "cup"}), (Words{"c777"}));
+  EXPECT_EQ(index.find({"cup"}).things.size(), 20000U);
+}
+
+}  // namespace
+}  // namespace oikos::semantic
