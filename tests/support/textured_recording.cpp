@@ -17,6 +17,7 @@ SyntheticRecording::SyntheticRecording(TexturedWorld world, const camera::Pinhol
                                        std::vector<Eigen::Isometry3d> T_map_camera, SyntheticSensor sensor)
     : world_(std::move(world)), camera_(camera), T_map_camera_(std::move(T_map_camera)), sensor_(std::move(sensor)) {
   OIKOS_CHECK(sensor_.rate_hz > 0.0);
+  cv::setNumThreads(1);  // as the program does; and OpenCV's own threads look like races to ThreadSanitizer
 }
 
 std::int64_t SyntheticRecording::stampNs(int index) const {
