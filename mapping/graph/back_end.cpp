@@ -40,6 +40,7 @@ class Refiner {
     if (config_.bundle_adjustment) {
       tell("matching keyframes");
       addCovisibleObservations(drive_.graph, tools_.camera, tools_.images, tools_.follower, config_.covisibility, tools_.threads);
+      thinSightings(drive_.graph, config_.covisibility.max_sightings);
       tell("refining the map");
       result_.bundle = adjustBundle(drive_.graph, tools_.camera, 0.0, Readout::kFixed, config_.bundle);
       if (config_.rolling_shutter) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <set>
 
@@ -78,9 +79,23 @@ class Matcher {
   const CovisibilityConfig& config_;
 };
 
-/// Of a landmark seen from very many nodes an even choice is kept: the others say hardly more, and would let the refinement grow with
-/// every pass over a known place.
-int thinOut(KeyframeGraph& graph, int max_sightings) {
+}  // namespace
+
+int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images,
+                             const FollowerConfig& follower, const CovisibilityConfig& config, int threads) {
+  const Matcher matcher(graph, camera, images, follower, config);
+  std::vector<std::vector<Observation>> found(graph.nodes.size());
+  base::parallelFor(static_cast<int>(graph.nodes.size()), threads, [&](int n) { found[static_cast<std::size_t>(n)] = matcher.match(n); });
+  int added = 0;
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    auto& observations = graph.nodes[n].observations;
+    observations.insert(observations.end(), found[n].begin(), found[n].end());
+    added += static_cast<int>(found[n].size());
+  }
+  return added;
+}
+
+int thinSightings(KeyframeGraph& graph, int max_sightings) {
   std::vector<int> seen(graph.landmarks.size(), 0);
   for (const Node& node : graph.nodes) {
     for (const Observation& o : node.observations) {
@@ -97,22 +112,6 @@ int thinOut(KeyframeGraph& graph, int max_sightings) {
     }));
   }
   return removed;
-}
-
-}  // namespace
-
-int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images,
-                             const FollowerConfig& follower, const CovisibilityConfig& config, int threads) {
-  const Matcher matcher(graph, camera, images, follower, config);
-  std::vector<std::vector<Observation>> found(graph.nodes.size());
-  base::parallelFor(static_cast<int>(graph.nodes.size()), threads, [&](int n) { found[static_cast<std::size_t>(n)] = matcher.match(n); });
-  int added = 0;
-  for (std::size_t n = 0; n < found.size(); ++n) {
-    auto& observations = graph.nodes[n].observations;
-    observations.insert(observations.end(), found[n].begin(), found[n].end());
-    added += static_cast<int>(found[n].size());
-  }
-  return added - thinOut(graph, config.max_sightings);
 }
 
 }  // namespace oikos::mapping

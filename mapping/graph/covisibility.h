@@ -34,4 +34,8 @@ struct CovisibilityConfig {
 int addCovisibleObservations(KeyframeGraph& graph, const camera::PinholeCamera& camera, KeyframeImages& images,
                              const FollowerConfig& follower, const CovisibilityConfig& config, int threads);
 
+/// Of a landmark seen from more nodes than that an even choice is kept: the others say hardly more, and would let the refinement grow with
+/// every pass over a known place. Returns how many observations went.
+int thinSightings(KeyframeGraph& graph, int max_sightings);
+
 }  // namespace oikos::mapping

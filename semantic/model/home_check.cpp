@@ -244,7 +244,7 @@ class Checker {
     }
     const bool turns = joint.type == JointType::kRevolute;
     const auto text = [&](double value) {
-      return base::toText(std::round((turns ? value * 180.0 / 3.14159265358979323846 : value) * 1e6) / 1e6) + (turns ? " deg" : " m");
+      return base::toText(std::round((turns ? value / kRadPerDeg : value) * 1e6) / 1e6) + (turns ? " deg" : " m");
     };
     constexpr double kSlack = 1e-9;
     if (joint.lower > joint.upper) {

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semantic/model/relations.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "semantic/model/placement.h"
 
 namespace oikos::semantic {
-
-namespace {
-
-Pose fromIsometry(const Eigen::Isometry3d& T) {
-  const Eigen::Matrix3d& R = T.linear();
-  const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
-  return {T.translation(), {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))}};
-}
-
-}  // namespace
 
 std::optional<Relation> findRelation(const Box& carrier, const Eigen::Isometry3d& T_carrier_object, const std::optional<Box>& object_box) {
   const Eigen::Isometry3d T_box_object = carrier.center.toIsometry().inverse() * T_carrier_object;
@@ -49,7 +38,7 @@ std::vector<Box> boxesOf(const LargeObject& object, std::string_view parent) {
       boxes.insert(boxes.end(), part.boxes_part.begin(), part.boxes_part.end());
     } else if (parent == object.id.value && T_object_part) {
       for (const Box& box : part.boxes_part) {
-        boxes.push_back({fromIsometry(*T_object_part * box.center.toIsometry()), box.size_m});
+        boxes.push_back({Pose::fromIsometry(*T_object_part * box.center.toIsometry()), box.size_m});
       }
     }
   }

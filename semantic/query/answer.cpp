@@ -2,11 +2,10 @@
 #include "semantic/query/answer.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <set>
 
 #include "core/base/number_text.h"
-#include "semantic/model/placement.h"
 #include "semantic/query/question.h"
 
 namespace oikos::semantic {
@@ -15,7 +14,6 @@ namespace {
 
 constexpr std::size_t kMostFound = 20;
 constexpr std::size_t kMostSpoken = 5;
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
   std::string text;
@@ -32,54 +30,9 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-/// Where a joint is shut: at 0, or the limit nearest to it.
-double shutValue(const Joint& joint) {
-  return std::clamp(0.0, std::min(joint.lower, joint.upper), std::max(joint.lower, joint.upper));
-}
-
-/// Farther than what a reading may be off.
-bool isOpen(const Joint& joint) {
-  return std::abs(joint.value - shutValue(joint)) > (joint.type == JointType::kRevolute ? 5.0 / kDegPerRad : 0.02);
-}
-
 std::string openingText(const Joint& joint) {
-  const double opening = std::abs(joint.value - shutValue(joint));
-  return joint.type == JointType::kRevolute ? base::toFixedText(opening * kDegPerRad, 0) + " degrees"
-                                            : base::toFixedText(opening * 100.0, 0) + " cm";
-}
-
-JointReading readingOf(const Joint& joint) {
-  return {joint.id.value, joint.type, joint.value};
-}
-
-/// The joints whose state is the thing's: all of a piece of furniture, that of a part.
-std::vector<const Joint*> jointsOf(const Thing& thing) {
-  std::vector<const Joint*> joints;
-  if (thing.object == nullptr || !thing.object->articulation || thing.kind == ThingKind::kSmallObject || thing.kind == ThingKind::kKnob) {
-    return joints;
-  }
-  for (const Joint& joint : thing.object->articulation->joints) {
-    if (thing.part == nullptr || joint.child == thing.part->id) {
-      joints.push_back(&joint);
-    }
-  }
-  return joints;
-}
-
-/// What stands between the robot and a small object: the shut joints of its drawer; in a body with doors, all that are shut.
-std::vector<JointReading> jointsToMove(const Thing& thing) {
-  std::vector<JointReading> joints;
-  if (thing.kind != ThingKind::kSmallObject || thing.object == nullptr || !thing.object->articulation ||
-      thing.small_object->relation != Relation::kIn) {
-    return joints;
-  }
-  const bool in_base = thing.part == nullptr || thing.part->parent.value.empty();
-  for (const Joint& joint : thing.object->articulation->joints) {
-    if (!isOpen(joint) && (in_base || joint.child == thing.part->id)) {
-      joints.push_back(readingOf(joint));
-    }
-  }
-  return joints;
+  return joint.type == JointType::kRevolute ? base::toFixedText(openingOf(joint) / kRadPerDeg, 0) + " degrees"
+                                            : base::toFixedText(openingOf(joint) * 100.0, 0) + " cm";
 }
 
 std::string placeText(const Thing& thing) {
@@ -106,38 +59,6 @@ std::string placeText(const Thing& thing) {
                       nullptr,
                       nullptr};
   return std::string(base::toString(thing.small_object->relation)) + " the " + carrier.name() + in_room;
-}
-
-FoundThing describe(const Thing& thing) {
-  FoundThing found;
-  found.id = thing.id();
-  found.name = thing.name();
-  found.room = thing.room->id.value;
-  found.T_map_thing = thing.T_map_thing();
-  if (thing.kind == ThingKind::kSmallObject) {
-    found.parent = thing.small_object->parent;
-    found.relation = thing.small_object->relation;
-    found.T_parent_thing = thing.small_object->T_parent_object.toIsometry();
-    found.last_seen_ns = thing.small_object->last_seen_ns;
-    found.confidence = thing.small_object->confidence;
-  } else if (thing.kind == ThingKind::kPart || thing.kind == ThingKind::kKnob) {
-    found.parent = thing.object->id.value;
-  } else if (thing.kind == ThingKind::kLargeObject) {
-    found.parent = thing.room->id.value;
-  }
-  if (thing.object != nullptr) {
-    std::vector<ParkingPose> parking = thing.object->parking_poses;
-    std::stable_partition(parking.begin(), parking.end(), [](const ParkingPose& pose) { return pose.is_default; });
-    for (const ParkingPose& pose : parking) {
-      found.T_map_base.push_back(thing.object->T_map_object.toIsometry() * pose.T_object_base.toIsometry());
-    }
-  }
-  found.joints_to_move = jointsToMove(thing);
-  for (const Joint* joint : jointsOf(thing)) {
-    found.joints.push_back(readingOf(*joint));
-  }
-  found.setting = thing.kind == ThingKind::kKnob ? thing.knob->current : "";
-  return found;
 }
 
 using Things = std::vector<const Thing*>;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,29 +10,28 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
-
 /// To the micrometre and the millionth of a degree; no -0.
 double rounded(double value) {
   return std::round(value * 1e6) / 1e6 + 0.0;
 }
 
 Json poseJson(const Eigen::Isometry3d& T) {
-  const Eigen::Matrix3d& R = T.linear();
-  const Eigen::Vector3d& t = T.translation();
+  const Pose pose = Pose::fromIsometry(T);
+  const Eigen::Vector3d& t = pose.position_m;
+  const Eigen::Vector3d turned_deg = pose.roll_pitch_yaw_rad / kRadPerDeg;
   return {{"x_m", rounded(t.x())},
           {"y_m", rounded(t.y())},
           {"z_m", rounded(t.z())},
-          {"roll_deg", rounded(std::atan2(R(2, 1), R(2, 2)) * kDegPerRad)},
-          {"pitch_deg", rounded(std::asin(std::clamp(-R(2, 0), -1.0, 1.0)) * kDegPerRad)},
-          {"yaw_deg", rounded(std::atan2(R(1, 0), R(0, 0)) * kDegPerRad)}};
+          {"roll_deg", rounded(turned_deg.x())},
+          {"pitch_deg", rounded(turned_deg.y())},
+          {"yaw_deg", rounded(turned_deg.z())}};
 }
 
 Json jointsJson(const std::vector<JointReading>& joints) {
   Json list = Json::array();
   for (const JointReading& joint : joints) {
     const bool turns = joint.type == JointType::kRevolute;
-    list.push_back({{"id", joint.id}, {turns ? "value_deg" : "value_m", rounded(turns ? joint.value * kDegPerRad : joint.value)}});
+    list.push_back({{"id", joint.id}, {turns ? "value_deg" : "value_m", rounded(turns ? joint.value / kRadPerDeg : joint.value)}});
   }
   return list;
 }

@@ -63,7 +63,7 @@ class HomeIndex {
 
   const Home& home_;
   std::vector<Thing> things_;
-  std::unordered_map<std::string, std::vector<std::uint32_t>> things_of_word_;  // looked up only
+  std::unordered_map<std::string, std::vector<std::uint32_t>> things_of_word_;  // walked through for a misspelt word only, to its least
   std::unordered_map<std::string, std::string> name_of_phrase_;                 // of the vocabulary: synonym or name in words -> name
   std::unordered_set<std::string> terms_;                                       // names of the vocabulary
   std::unordered_map<std::string_view, std::uint32_t> thing_of_id_;

@@ -13,8 +13,6 @@
 
 namespace oikos::semantic {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
-
 /// The attributes of one element as values. The schema has judged them already: what it refused comes as nothing, or a default.
 class Attributes {
  public:
