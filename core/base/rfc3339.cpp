@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/rfc3339.h"
 
+#include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdio>
 
 namespace oikos::base {
 
@@ -95,6 +97,24 @@ std::optional<std::int64_t> parseRfc3339Ns(std::string_view text) {
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
   const std::int64_t seconds = days * 86'400 + hour * 3'600 + (minute - zone.minutes) * 60 + second;
   return seconds * 1'000'000'000 + fraction_ns;
+}
+
+std::string toRfc3339(std::int64_t time_ns) {
+  const std::chrono::sys_time<std::chrono::nanoseconds> time{std::chrono::nanoseconds(time_ns)};
+  const auto day = std::chrono::floor<std::chrono::days>(time);
+  const std::chrono::year_month_day date(day);
+  const std::chrono::hh_mm_ss clock(time - day);
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%04d-%02u-%02uT%02d:%02d:%02d", static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), static_cast<int>(clock.hours().count()),
+                static_cast<int>(clock.minutes().count()), static_cast<int>(clock.seconds().count()));
+  std::string result = text.data();
+  if (clock.subseconds().count() != 0) {
+    std::snprintf(text.data(), text.size(), ".%09lld", static_cast<long long>(clock.subseconds().count()));
+    result += text.data();
+    result.erase(result.find_last_not_of('0') + 1);
+  }
+  return result + "Z";
 }
 
 }  // namespace oikos::base

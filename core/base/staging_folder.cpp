@@ -61,6 +61,11 @@ FileDescriptor makeLocked(const std::filesystem::path& folder) {
   throw Error(ErrorCode::kIo, "is made and removed by other processes all the time", folder.string());
 }
 
+/// What discard() calls the folder until it is gone.
+std::filesystem::path discardedPath(std::filesystem::path folder) {
+  return folder += ".discarded";
+}
+
 void removeContent(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     std::error_code failure;
@@ -94,6 +99,8 @@ void syncBothFolders(const std::filesystem::path& staged, const std::filesystem:
 
 StagingFolder::StagingFolder(const std::filesystem::path& folder) : path_(folder), lock_(makeLocked(folder)) {
   removeContent(path_);
+  std::error_code another_process_may_remove_it_too;
+  std::filesystem::remove_all(discardedPath(path_), another_process_may_remove_it_too);
 }
 
 StagingFolder::~StagingFolder() {
@@ -106,10 +113,13 @@ void StagingFolder::discard() noexcept {
     return;  // published as a whole: it has another name now
   }
   discarded_ = true;
-  // Another thread may make a file between our listing the folder and our removing it: then there is one more round.
+  // Under another name no thread finds it any more; one that has a path resolved already may still add a file, hence the rounds.
+  const std::filesystem::path discarded = discardedPath(path_);
   std::error_code failure;
-  for (int attempt = 0; attempt < kAttempts && std::filesystem::exists(path_, failure); ++attempt) {
-    std::filesystem::remove_all(path_, failure);
+  std::filesystem::rename(path_, discarded, failure);
+  const std::filesystem::path& doomed = failure ? path_ : discarded;
+  for (int attempt = 0; attempt < kAttempts && std::filesystem::exists(doomed, failure); ++attempt) {
+    std::filesystem::remove_all(doomed, failure);
   }
 }
 

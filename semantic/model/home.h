@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/enum_table.h"
+#include "semantic/model/copy_on_write.h"
 #include "semantic/model/pose.h"
 #include "semantic/model/vocabulary.h"
 
@@ -211,13 +212,13 @@ struct Room {
   std::vector<Eigen::Vector2d> outline_map;  ///< corners in order, either way round (m); empty: not known
   std::string cloud;                         ///< file below the home
   std::vector<Switch> switches;
-  std::vector<LargeObject> objects;
+  std::vector<CopyOnWrite<LargeObject>> objects;
   std::vector<SmallObject> small_objects;  ///< on its floor
   SourceLine line;
   bool operator==(const Room&) const = default;
 };
 
-/// The whole home. A plain value: whoever changes one, copies it.
+/// The whole home. A plain value: whoever changes one, copies it; the copy shares the furniture that it does not change.
 struct Home {
   std::string id;
   std::string name;
@@ -225,7 +226,7 @@ struct Home {
   std::string time_zone = "UTC";  ///< of the tz database, for questions and answers
   std::int64_t as_of = 0;         ///< the last event of the history that it contains
   Pose T_map_dock;
-  Vocabulary vocabulary;
+  CopyOnWrite<Vocabulary> vocabulary;
   std::vector<Room> rooms;
   bool operator==(const Home&) const = default;
 };

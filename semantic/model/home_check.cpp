@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -118,12 +119,18 @@ class Checker {
     }
   }
 
+  bool isKnown(TermKind kind, std::string_view word) {
+    const auto [known, is_new] = known_words_.try_emplace({kind, word}, false);
+    known->second = is_new ? home_.vocabulary->find(kind, word) != nullptr : known->second;
+    return known->second;
+  }
+
   void checkWord(TermKind kind, const std::string& word, const std::string& element, int line) {
-    if (word.empty() || home_.vocabulary.find(kind, word) != nullptr) {
+    if (word.empty() || isKnown(kind, word)) {
       return;
     }
     std::vector<std::string> names;
-    for (const Term& term : home_.vocabulary.of(kind)) {
+    for (const Term& term : home_.vocabulary->of(kind)) {
       names.push_back(term.name);
     }
     const std::string kind_name(base::toString(kind));
@@ -336,7 +343,8 @@ class Checker {
 
   const Home& home_;
   std::vector<Finding> findings_;
-  std::unordered_map<std::string, Place> ids_;  // looked up only, never walked through
+  std::map<std::pair<TermKind, std::string_view>, bool> known_words_;
+  std::unordered_map<std::string_view, Place> ids_;  // looked up only, never walked through
 };
 
 }  // namespace

@@ -109,7 +109,7 @@ Eigen::Isometry3d Thing::T_map_thing() const {
 
 HomeIndex::HomeIndex(const Home& home) : home_(home) {
   for (const TermKind kind : {TermKind::kRoomType, TermKind::kObjectType, TermKind::kColor}) {
-    for (const Term& term : home.vocabulary.of(kind)) {
+    for (const Term& term : home.vocabulary->of(kind)) {
       std::vector<std::string> phrases = term.synonyms;
       phrases.push_back(spaced(term.name));
       for (const std::string& phrase : phrases) {

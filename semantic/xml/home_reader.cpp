@@ -2,11 +2,15 @@
 #include "semantic/xml/home_reader.h"
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
 #include <map>
+#include <memory>
+#include <sstream>
 #include <string>
 #include <string_view>
 
+#include "core/base/error.h"
 #include "core/base/rfc3339.h"
 #include "semantic/model/home_check.h"
 #include "semantic/xml/attributes.h"
@@ -24,17 +28,20 @@ class Builder {
     close(element.depth);
     element_ = &element;
     if (const auto method = methods().find(element.name); method != methods().end()) {
-      (this->*method->second)(Attributes(element));
+      (this->*method->second)(Attributes(element, findings));
     }
   }
 
   void end(std::string_view name, const std::string& content) {
     if (name == "synonym") {
-      home_.vocabulary.add(term_kind_, {term_, {content}});
+      vocabulary_.add(term_kind_, {term_, {content}});
     }
   }
 
-  Home take() { return std::move(home_); }
+  Home take() {
+    home_.vocabulary = std::move(vocabulary_);
+    return std::move(home_);
+  }
 
  private:
   using Method = void (Builder::*)(const Attributes&);
@@ -75,13 +82,23 @@ class Builder {
 
   [[nodiscard]] SourceLine line() const { return {element_->line}; }
 
+  std::optional<std::int64_t> time(const char* name, const Attributes& a) {
+    const auto text = a.find(name);
+    const auto time_ns = text ? base::parseRfc3339Ns(*text) : std::nullopt;
+    if (text && !time_ns) {
+      findings.push_back({Severity::kError, element_->line,
+                          "element '" + std::string(element_->name) + "', attribute '" + name + "'", "'" + std::string(*text) + "'",
+                          "a time with its offset, for instance 2026-03-02T08:00:00Z"});
+    }
+    return time_ns;
+  }
+
   void apartment(const Attributes& a) {
     home_.id = a.text("id");
     home_.name = a.text("name");
     home_.version = static_cast<int>(a.number("version").value_or(0));
     home_.time_zone = std::string(a.find("timeZone").value_or("UTC"));
     home_.as_of = static_cast<std::int64_t>(a.number("asOf").value_or(0));
-    home_.vocabulary = builtInVocabulary();
   }
 
   void dock(const Attributes& a) { home_.T_map_dock = a.pose("pose"); }
@@ -89,7 +106,7 @@ class Builder {
   void term(const Attributes& a) {
     term_kind_ = a.choice<TermKind>("kind");
     term_ = a.text("name");
-    home_.vocabulary.add(term_kind_, {term_, {}});
+    vocabulary_.add(term_kind_, {term_, {}});
   }
 
   void room(const Attributes& a) {
@@ -98,14 +115,7 @@ class Builder {
     room.name = a.text("name");
     room.type = a.text("type");
     room.cloud = a.text("cloud");
-    const std::vector<double> outline = a.numbers("outline_m");
-    for (std::size_t i = 0; i + 1 < outline.size(); i += 2) {
-      room.outline_map.emplace_back(outline[i], outline[i + 1]);
-    }
-    if (outline.size() % 2 != 0) {
-      findings.push_back({Severity::kError, element_->line, "room '" + room.id.value + "'",
-                          "an outline of " + std::to_string(outline.size()) + " numbers", "x and y of each corner"});
-    }
+    room.outline_map = a.polygon("outline_m");
     room.line = line();
     room_ = &room;
     room_depth_ = element_->depth;
@@ -121,7 +131,9 @@ class Builder {
     if (room_ == nullptr) {
       return;
     }
-    LargeObject& object = room_->objects.emplace_back();
+    const auto made = std::make_shared<LargeObject>();
+    room_->objects.emplace_back(made);
+    LargeObject& object = *made;
     object.id.value = a.text("id");
     object.type = a.text("type");
     object.label = a.text("label");
@@ -155,9 +167,9 @@ class Builder {
     object.model = a.text("model");
     object.graspable = a.flag("graspable");
     object.grasp.surface_normal_map = a.vector("surfaceNormal");
-    object.grasp.longer_dimension_m = a.number("longerDimension_m");
-    object.last_seen_ns = base::parseRfc3339Ns(a.find("lastSeen").value_or(""));
-    object.confidence = a.number("confidence");
+    object.grasp.longer_dimension_m = a.length("longerDimension_m");
+    object.last_seen_ns = time("lastSeen", a);
+    object.confidence = a.share("confidence");
     object.line = line();
     small_ = &object;
     small_depth_ = element_->depth;
@@ -207,7 +219,7 @@ class Builder {
   void handle(const Attributes& a) {
     if (Articulation* const articulated = articulation()) {
       articulated->handles.push_back(
-          {a.text("id"), {a.text("part")}, a.choice<HandleKind>("kind"), a.pose("pose"), a.number("length_m"), line()});
+          {a.text("id"), {a.text("part")}, a.choice<HandleKind>("kind"), a.pose("pose"), a.length("length_m"), line()});
     }
   }
 
@@ -228,7 +240,7 @@ class Builder {
   }
 
   void box(const Attributes& a) {
-    const Box box{a.pose("center"), a.vector("size_m").value_or(Eigen::Vector3d::Zero())};
+    const Box box{a.pose("center"), a.size("size_m").value_or(Eigen::Vector3d::Zero())};
     if (small_ != nullptr) {
       small_->box_model = box;
     } else if (part_ != nullptr) {
@@ -282,6 +294,7 @@ class Builder {
 
  private:
   Home home_;
+  Vocabulary vocabulary_ = builtInVocabulary();
   const XmlElement* element_ = nullptr;
   Room* room_ = nullptr;
   LargeObject* large_ = nullptr;
@@ -297,21 +310,34 @@ class Builder {
   std::string term_;
 };
 
-}  // namespace
-
-HomeReading readHome(const std::filesystem::path& file) {
+HomeReading read(std::istream& input, const std::string& where) {
   Builder builder;
-  const XmlReading xml = readValidated(file, homeSchema(),
+  const XmlReading xml = readValidated(input, where, homeSchema(),
                                        {[&](const XmlElement& element) { builder.add(element); },
                                         [&](std::string_view name, const std::string& content) { builder.end(name, content); }});
   HomeReading reading{xml.complete, builder.take(), xml.findings};
+  reading.findings.insert(reading.findings.end(), builder.findings.begin(), builder.findings.end());
   if (reading.complete) {
     const std::vector<Finding> checked = checkHome(reading.home);
-    reading.findings.insert(reading.findings.end(), builder.findings.begin(), builder.findings.end());
     reading.findings.insert(reading.findings.end(), checked.begin(), checked.end());
   }
   std::stable_sort(reading.findings.begin(), reading.findings.end(), [](const Finding& a, const Finding& b) { return a.line < b.line; });
   return reading;
+}
+
+}  // namespace
+
+HomeReading readHome(const std::filesystem::path& file) {
+  std::ifstream input(file, std::ios::binary);
+  if (!input || std::filesystem::is_directory(file)) {
+    throw base::Error(base::ErrorCode::kIo, "cannot be opened", file.string());
+  }
+  return read(input, file.string());
+}
+
+HomeReading readHomeText(const std::string& text, const std::string& where) {
+  std::istringstream input(text);
+  return read(input, where);
 }
 
 }  // namespace oikos::semantic

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "semantic/model/finding.h"
@@ -18,5 +19,8 @@ struct HomeReading {
 /// Reads home.xml: what the schema refuses and what checkHome finds, all of it, in the order of the lines. Throws Error{kIo} if the file
 /// cannot be read.
 [[nodiscard]] HomeReading readHome(const std::filesystem::path& file);
+
+/// The same for text at hand; `where` names it in errors.
+[[nodiscard]] HomeReading readHomeText(const std::string& text, const std::string& where);
 
 }  // namespace oikos::semantic

@@ -4,11 +4,13 @@
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "core/base/error.h"
 
@@ -31,14 +33,14 @@ std::string_view view(const xmlChar* text) {
   return text == nullptr ? std::string_view() : std::string_view(reinterpret_cast<const char*>(text));
 }
 
+bool isOneOf(std::string_view text, std::initializer_list<std::string_view> list) {
+  return std::find(list.begin(), list.end(), text) != list.end();
+}
+
 /// The file as libxml2 reads it: by itself it would fetch URLs and unpack archives.
 class Input {
  public:
-  explicit Input(const std::filesystem::path& file) : stream_(file, std::ios::binary), where_(file.string()) {
-    if (!stream_ || std::filesystem::is_directory(file)) {
-      throw base::Error(base::ErrorCode::kIo, "cannot be opened", where_);
-    }
-  }
+  Input(std::istream& stream, std::string where) : stream_(stream), where_(std::move(where)) {}
 
   /// 0 at the end, or where it went wrong.
   int read(char* buffer, int size) {
@@ -58,7 +60,7 @@ class Input {
   }
 
  private:
-  std::ifstream stream_;
+  std::istream& stream_;
   std::string where_;
   std::int64_t bytes_ = 0;
   bool failed_ = false;
@@ -92,8 +94,8 @@ Finding fromMessage(int line, std::string message) {
 /// One pass of libxml2's SAX2 parser with its schema validator plugged in between.
 class Session {
  public:
-  Session(const std::filesystem::path& file, std::string_view schema, const ElementHandler& handler)
-      : handler_(handler), input_(file), schema_(parse(schema)), validator_(xmlSchemaNewValidCtxt(schema_.get())) {
+  Session(const Input& input, std::string_view schema, const ElementHandler& handler)
+      : handler_(handler), input_(input), schema_(parse(schema)), validator_(xmlSchemaNewValidCtxt(schema_.get())) {
     OIKOS_CHECK(validator_ != nullptr);
     sax_.initialized = XML_SAX2_MAGIC;
     sax_.startElementNs = &Session::startElement;
@@ -105,9 +107,10 @@ class Session {
     xmlSchemaSetValidStructuredErrors(validator_.get(), &Session::report, this);
     plug_ = xmlSchemaSAXPlug(validator_.get(), &sax, &user);
     OIKOS_CHECK(plug_ != nullptr);
-    parser_.reset(xmlCreatePushParserCtxt(sax, user, nullptr, 0, file.c_str()));
+    parser_.reset(xmlCreatePushParserCtxt(sax, user, nullptr, 0, nullptr));
     OIKOS_CHECK(parser_ != nullptr);
-    xmlCtxtUseOptions(parser_.get(), XML_PARSE_NONET);
+    // Only the five predefined entities can come up, as a document type stops the parser; without NOENT an ampersand would stay "&#38;".
+    xmlCtxtUseOptions(parser_.get(), XML_PARSE_NONET | XML_PARSE_NOENT);
   }
   ~Session() { xmlSchemaSAXUnplug(plug_); }
   Session(const Session&) = delete;
@@ -124,6 +127,7 @@ class Session {
     input_.throwIfFailed();
     if (!stopped_) {
       xmlParseChunk(parser_.get(), nullptr, 0, 1);
+      refuseOtherEncodings();
     }
     return {!stopped_ && parser_->wellFormed != 0, std::move(findings_)};
   }
@@ -167,13 +171,21 @@ class Session {
     session.stop();
   }
 
+  /// Elements are written back into the bytes that were read, hence one encoding.
+  void refuseOtherEncodings() {
+    const std::string_view encoding = view(parser_->encoding);
+    if (!encoding.empty() && !isOneOf(encoding, {"UTF-8", "utf-8", "ASCII", "US-ASCII", "us-ascii"})) {
+      findings_.push_back({Severity::kError, 1, "document", "encoding '" + std::string(encoding) + "'", "UTF-8"});
+    }
+  }
+
   static void startElement(void* self, const xmlChar* name, const xmlChar* /*prefix*/, const xmlChar* /*uri*/, int /*namespaces*/,
                            const xmlChar** /*namespace_list*/, int attributes, int /*defaulted*/, const xmlChar** list) {
     auto& session = *static_cast<Session*>(self);
     session.attributes_.clear();
     for (int i = 0; i < attributes; ++i) {
       const xmlChar** const a = list + static_cast<std::ptrdiff_t>(5) * i;  // name, prefix, URI, value, its end
-      session.attributes_.emplace_back(view(a[0]), std::string(reinterpret_cast<const char*>(a[3]), reinterpret_cast<const char*>(a[4])));
+      session.attributes_.emplace_back(view(a[0]), std::string_view(reinterpret_cast<const char*>(a[3]), reinterpret_cast<const char*>(a[4])));
     }
     session.handOn(view(name));
   }
@@ -220,7 +232,7 @@ class Session {
 
   const ElementHandler& handler_;
   std::vector<Finding> findings_;
-  std::vector<std::pair<std::string, std::string>> attributes_;
+  std::vector<std::pair<std::string_view, std::string_view>> attributes_;
   std::string text_;
   int depth_ = 0;
   bool stopped_ = false;
@@ -234,8 +246,8 @@ class Session {
 
 }  // namespace
 
-XmlReading readValidated(const std::filesystem::path& file, std::string_view schema, const ElementHandler& handler) {
-  return Session(file, schema, handler).run();
+XmlReading readValidated(std::istream& input, const std::string& where, std::string_view schema, const ElementHandler& handler) {
+  return Session(Input(input, where), schema, handler).run();
 }
 
 }  // namespace oikos::semantic

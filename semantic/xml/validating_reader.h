@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <functional>
+#include <istream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,7 +17,7 @@ struct XmlElement {
   std::string_view name;
   int line = 0;
   int depth = 0;  ///< 0: the root
-  const std::vector<std::pair<std::string, std::string>>& attributes;
+  const std::vector<std::pair<std::string_view, std::string_view>>& attributes;  ///< name and value, until the handler returns
 };
 
 struct ElementHandler {
@@ -30,9 +30,11 @@ struct XmlReading {
   std::vector<Finding> findings;  ///< what the schema does not allow, in the order of the file
 };
 
-/// Streams through an XML file in a few megabytes of memory, whatever its size, and hands on every element in order, those that the schema
+/// Streams through XML in a few megabytes of memory, whatever its size, and hands on every element in order, those that the schema
 /// refuses too. It stops at the first that is not well formed, below 32 levels, after 1000 findings, and at a document type: no entity is
-/// ever expanded and nothing else is ever opened. Throws Error{kIo} if the file cannot be read, Error{kInput} if it is larger than 1 GiB.
-[[nodiscard]] XmlReading readValidated(const std::filesystem::path& file, std::string_view schema, const ElementHandler& handler);
+/// ever expanded and nothing else is ever opened. Throws Error{kIo} if `input` (which `where` names) cannot be read to its end, Error{kInput}
+/// if it is larger than 1 GiB.
+[[nodiscard]] XmlReading readValidated(std::istream& input, const std::string& where, std::string_view schema,
+                                       const ElementHandler& handler);
 
 }  // namespace oikos::semantic

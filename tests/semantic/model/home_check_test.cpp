@@ -32,7 +32,7 @@ TEST(HomeCheck, ThePapersHouseIsInOrder) {
 
 TEST(HomeCheck, FurnitureOutsideItsRoom) {
   Home home = papersHouse();
-  home.rooms[0].objects[0].T_map_object.position_m.y() = 2.3;
+  home.rooms[0].objects[0].edit().T_map_object.position_m.y() = 2.3;
   expectOnly(checkHome(home), Severity::kWarning, "object 'table'", "outside its room");
   home.rooms[0].outline_map.clear();
   EXPECT_TRUE(checkHome(home).empty());
@@ -40,15 +40,15 @@ TEST(HomeCheck, FurnitureOutsideItsRoom) {
 
 TEST(HomeCheck, AnUnknownWordNamesTheNearest) {
   Home home = papersHouse();
-  home.rooms[0].objects[2].type = "frige";
+  home.rooms[0].objects[2].edit().type = "frige";
   expectOnly(checkHome(home), Severity::kWarning, "object 'fridge'", "did you mean 'fridge'");
-  home.vocabulary.add(TermKind::kObjectType, {"frige", {}});
+  home.vocabulary.edit().add(TermKind::kObjectType, {"frige", {}});
   EXPECT_TRUE(checkHome(home).empty());
 }
 
 TEST(HomeCheck, ARelationThatTheBoxesContradict) {
   Home home = papersHouse();
-  SmallObject& cup = home.rooms[0].objects[0].small_objects[3];
+  SmallObject& cup = home.rooms[0].objects[0].edit().small_objects[3];
   cup.relation = Relation::kUnder;
   expectOnly(checkHome(home), Severity::kWarning, "small object 'blue-cup'", "by their boxes it is on it");
   cup.relation = Relation::kOn;
@@ -58,7 +58,7 @@ TEST(HomeCheck, ARelationThatTheBoxesContradict) {
 
 TEST(HomeCheck, AJointWithinARoundingOfItsLimitIsFine) {
   Home home = papersHouse();
-  Joint& hinge = home.rooms[0].objects[2].articulation->joints[0];
+  Joint& hinge = home.rooms[0].objects[2].edit().articulation->joints[0];
   hinge.value = hinge.upper + 1e-12;
   EXPECT_TRUE(checkHome(home).empty());
 }
@@ -67,9 +67,9 @@ TEST(HomeCheck, FilesThatAreMissing) {
   const test::TemporaryFolder folder;
   (void)folder.write("models/table.obj", "o table\n");
   Home home = papersHouse();
-  home.rooms[0].objects[0].model = "models/table.obj";
+  home.rooms[0].objects[0].edit().model = "models/table.obj";
   EXPECT_TRUE(checkFiles(home, folder.path()).empty());
-  home.rooms[0].objects[0].small_objects[3].model = "models/cup.obj";
+  home.rooms[0].objects[0].edit().small_objects[3].model = "models/cup.obj";
   expectOnly(checkFiles(home, folder.path()), Severity::kWarning, "small object 'blue-cup'", "'models/cup.obj', which is missing");
 }
 

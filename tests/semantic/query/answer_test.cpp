@@ -20,9 +20,9 @@ Home papersHouse() {
 /// The papers' house after a while: the left cupboard door stands open, the blue cup is behind it, a bowl is on the bathroom's floor.
 Home laterHouse() {
   Home home = papersHouse();
-  LargeObject& cupboard = home.rooms[0].objects[1];
+  LargeObject& cupboard = home.rooms[0].objects[1].edit();
   cupboard.articulation->joints[0].value = 1.2;
-  std::vector<SmallObject>& on_table = home.rooms[0].objects[0].small_objects;
+  std::vector<SmallObject>& on_table = home.rooms[0].objects[0].edit().small_objects;
   SmallObject cup = on_table[3];
   cup.parent = "cupboard-body";
   cup.relation = Relation::kIn;
@@ -126,7 +126,7 @@ TEST(Answer, SaysWhereToStandAndWhatToOpenFirst) {
 
 TEST(Answer, TheDefaultParkingPoseIsTriedFirst) {
   Home home = papersHouse();
-  auto& parking = home.rooms[0].objects[0].parking_poses;
+  auto& parking = home.rooms[0].objects[0].edit().parking_poses;
   std::swap(parking[0], parking[2]);
   const HomeIndex index(home);
   const Answer answer = answerQuestion(index, "where is the table");
@@ -136,7 +136,7 @@ TEST(Answer, TheDefaultParkingPoseIsTriedFirst) {
 
 TEST(Answer, TwentyOfManyAndTheNumberOfAll) {
   Home home = papersHouse();
-  auto& on_table = home.rooms[0].objects[0].small_objects;
+  auto& on_table = home.rooms[0].objects[0].edit().small_objects;
   for (int i = 0; i < 40; ++i) {
     SmallObject spoon = on_table[0];
     spoon.id = {"spoon-" + std::to_string(i)};

@@ -20,7 +20,7 @@ Home manyCups(int count, int special) {
   Room& room = home.rooms.emplace_back();
   room.id = {"hall"};
   room.name = "hall";
-  LargeObject& table = room.objects.emplace_back();
+  LargeObject table;
   table.id = {"table"};
   table.type = "table";
   for (int i = 0; i < count; ++i) {
@@ -30,6 +30,7 @@ Home manyCups(int count, int special) {
     cup.parent = "table";
     cup.properties = {{"color", i == special ? "blue" : "red"}};
   }
+  room.objects.emplace_back(table);
   return home;
 }
 

@@ -35,13 +35,13 @@ TEST(PapersHouse, HasItsRoomsAndFurniture) {
   EXPECT_EQ(home.rooms[1].type, "bathroom");
   EXPECT_EQ(home.rooms[0].outline_map.size(), 4U);
   EXPECT_EQ(home.time_zone, "Europe/Rome");
-  const std::vector<LargeObject>& furniture = home.rooms[0].objects;
+  const auto& furniture = home.rooms[0].objects;
   ASSERT_EQ(furniture.size(), 3U);
-  EXPECT_EQ(furniture[0].label, "kitchen table");
-  EXPECT_EQ(furniture[0].movability, Movability::kShiftable);
-  EXPECT_EQ(furniture[0].parking_poses.size(), 3U);
-  EXPECT_FALSE(furniture[0].articulation);
-  EXPECT_NEAR(furniture[1].T_map_object.roll_pitch_yaw_rad.z(), kPi, 1e-12);
+  EXPECT_EQ(furniture[0]->label, "kitchen table");
+  EXPECT_EQ(furniture[0]->movability, Movability::kShiftable);
+  EXPECT_EQ(furniture[0]->parking_poses.size(), 3U);
+  EXPECT_FALSE(furniture[0]->articulation);
+  EXPECT_NEAR(furniture[1]->T_map_object.roll_pitch_yaw_rad.z(), kPi, 1e-12);
 }
 
 TEST(PapersHouse, HasTheCups) {
@@ -65,7 +65,7 @@ TEST(PapersHouse, HasTheCups) {
 }
 
 TEST(PapersHouse, HasItsDoorsAndKnob) {
-  const Articulation& fridge = *papersHouse().rooms[0].objects[2].articulation;
+  const Articulation& fridge = *papersHouse().rooms[0].objects[2]->articulation;
   ASSERT_EQ(fridge.joints.size(), 1U);
   EXPECT_EQ(fridge.joints[0].type, JointType::kRevolute);
   EXPECT_NEAR(fridge.joints[0].upper, 120.0 * kPi / 180.0, 1e-12);
@@ -79,7 +79,7 @@ TEST(PapersHouse, HasItsDoorsAndKnob) {
 
 TEST(PapersHouse, EveryElementKnowsItsLine) {
   const std::string content = base::readFile(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml");
-  const int line = papersHouse().rooms[0].objects[0].small_objects[3].line.number;
+  const int line = papersHouse().rooms[0].objects[0]->small_objects[3].line.number;
   std::size_t begin = 0;
   for (int i = 1; i < line; ++i) {
     begin = content.find('\n', begin) + 1;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "semantic/history/event.h"
+
+namespace oikos::semantic {
+
+/// {"number", "time", "recording", "frame", "subject", "kind", "before", "after", "confidence", "evidence"}; what is not known is left out.
+/// A state is {"parent", "relation", "pose": [x, y, z, roll, pitch, yaw]}, {"pose": […]}, {"value_deg": d}, {"value_m": d} or
+/// {"setting": name}; metres and degrees, times RFC 3339.
+[[nodiscard]] nlohmann::ordered_json toJson(const Event& event);
+/// Throws Error{kInput} that names the key, what was found and what would be right; `where` is put in front.
+[[nodiscard]] Event eventFromJson(const nlohmann::json& json, const std::string& where);
+
+}  // namespace oikos::semantic

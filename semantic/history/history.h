@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The log of everything that was observed in a home and of every change: HOME/history.sqlite, append only. An event counts once its commit
+// is on the disk.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "semantic/history/event.h"
+
+namespace oikos::semantic {
+
+enum class HistoryAccess { kRead, kAppend };
+
+/// One open log. All methods are thread-safe; all throw Error{kIo} if the file cannot be read or written.
+class History {
+ public:
+  /// kAppend creates the file if it is missing; kRead takes a missing one as empty. Throws Error{kInput} for a file that is no history or
+  /// of a newer version.
+  History(const std::filesystem::path& file, HistoryAccess access);
+  ~History();
+  History(const History&) = delete;
+  History& operator=(const History&) = delete;
+
+  /// Commits the events in their order, all or none, and returns the number of the last. They are on the disk when it returns (what comes
+  /// from several threads at a time shares one sync). Their own numbers are ignored.
+  std::int64_t append(std::span<const Event> events);
+
+  /// Of the last event; 0: none yet. Sees what other processes have committed.
+  [[nodiscard]] std::int64_t lastNumber() const;
+  /// In the order of commits, numbers above `number`; at most `limit`.
+  [[nodiscard]] std::vector<Event> eventsAfter(std::int64_t number, std::size_t limit) const;
+  /// In the order of time, then of commits. Without what was taken back.
+  [[nodiscard]] std::vector<Event> eventsOf(std::string_view subject) const;
+  /// With from_ns <= time_ns < to_ns, in the order of time, then of commits. Without what was taken back.
+  [[nodiscard]] std::vector<Event> eventsBetween(std::int64_t from_ns, std::int64_t to_ns) const;
+  /// The newest at `time_ns` that says something about the subject's state; nothing: it had said nothing by then. O(log n).
+  [[nodiscard]] std::optional<Event> findStateAt(std::string_view subject, std::int64_t time_ns) const;
+  /// The first after `time_ns` that does. O(log n).
+  [[nodiscard]] std::optional<Event> findStateAfter(std::string_view subject, std::int64_t time_ns) const;
+  /// Every subject that a state was ever said of, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> subjects() const;
+  /// The recording with the latest event, and the times of its first and last event; nothing: no recording yet.
+  struct RecordingSpan {
+    std::string recording;
+    std::int64_t first_ns = 0;
+    std::int64_t last_ns = 0;
+  };
+  [[nodiscard]] std::optional<RecordingSpan> findLastRecording() const;
+
+ private:
+  class Database;
+  std::unique_ptr<Database> database_;
+};
+
+/// The home as it was at `time_ns`: the states that the history had by then; where it has none, that from before the first change, else
+/// that of `current`. What stands in `current` and is no state (labels, models, shapes) stays. O(k log n) for k subjects with a history.
+[[nodiscard]] Home homeAt(const Home& current, const History& history, std::int64_t time_ns);
+
+}  // namespace oikos::semantic

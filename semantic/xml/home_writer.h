@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "semantic/model/home.h"
+
+namespace oikos::semantic {
+
+/// The home as a new file. It reads back as an equal home; an angle that no decimal text in degrees gives to the bit (they never came from
+/// a file) within 1e-15 rad.
+[[nodiscard]] std::string toXml(const Home& home);
+
+/// `bytes`, which readHome reads as `before`, changed so that it reads `after`: only what differs is replaced. Comments, order, quotes and
+/// line breaks of everything else stay; an object that moves takes its own along. `bytes` must be UTF-8 and valid.
+[[nodiscard]] std::string spliceXml(std::string_view bytes, const Home& before, const Home& after);
+
+/// Replaces a home.xml that reads `before` by one that reads `after`, atomically, once the new text has been read back and found valid and
+/// equal. Throws Error{kIo} (the old file stays), Error{kInput} where `after` is no valid home.
+void saveHome(const std::filesystem::path& file, const Home& before, const Home& after);
+
+}  // namespace oikos::semantic
