@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A home that is kept: home.xml, the history behind it, and the state that both give together. Whoever writes home.xml holds the home's lock.
+// A home that is kept: home.xml, the history behind it, and the state that both give together. Whoever writes home.xml holds the home's
+// lock.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace oikos::semantic {
 
 /// The home at one moment. Immutable.
 struct HomeSnapshot {
-  Home home;                    ///< `as_of`: the last event that it contains
+  Home home;                   ///< `as_of`: the last event that it contains
   std::int64_t structure = 0;  ///< grows when anything but states has changed: rooms, objects, labels, words
 };
 
@@ -39,8 +40,8 @@ class HomeStore {
   [[nodiscard]] std::shared_ptr<const HomeSnapshot> snapshot() const;
   [[nodiscard]] const History& history() const;
 
-  /// Checks the events against the home (subject, kind, state: Error{kInput}), fills in `before`, commits them (Error{kIo}: refused, nothing
-  /// changed) and returns the last one's number. The snapshot contains them before it returns.
+  /// Checks the events against the home (subject, kind, state: Error{kInput}), fills in `before`, commits them (Error{kIo}: refused,
+  /// nothing changed) and returns the last one's number. The snapshot contains them before it returns.
   std::int64_t append(std::vector<Event> events);
   /// Takes up what other processes have committed. Whether there was anything.
   bool refresh();

@@ -12,7 +12,8 @@ template <class T>
 class CopyOnWrite {
  public:
   CopyOnWrite() : value_(std::make_shared<const T>()) {}
-  CopyOnWrite(T value) : value_(std::make_shared<const T>(std::move(value))) {}  // NOLINT(google-explicit-constructor): it stands for the value
+  CopyOnWrite(T value)
+      : value_(std::make_shared<const T>(std::move(value))) {}  // NOLINT(google-explicit-constructor): it stands for the value
 
   /// For building it up: `value` may be changed through that pointer as long as nobody else reads it.
   explicit CopyOnWrite(std::shared_ptr<T> value) : value_(std::move(value)) {}

@@ -169,9 +169,9 @@ void write(const SmallObject& object, XmlNode& node) {
     node.children.push_back(leaf("property", {{"name", property.name}, {"value", property.value}}));
   }
   for (const DefaultPlace& place : object.default_places) {
-    node.children.push_back(leaf("defaultPlace", {{"parent", place.parent},
-                                                  {"relation", std::string(base::toString(place.relation))},
-                                                  {"pose", poseText(place.T_parent_object)}}));
+    node.children.push_back(leaf(
+        "defaultPlace",
+        {{"parent", place.parent}, {"relation", std::string(base::toString(place.relation))}, {"pose", poseText(place.T_parent_object)}}));
   }
   for (const GraspingPoint& point : object.grasping_points) {
     node.children.push_back(graspNode(point));

@@ -86,9 +86,8 @@ class Builder {
     const auto text = a.find(name);
     const auto time_ns = text ? base::parseRfc3339Ns(*text) : std::nullopt;
     if (text && !time_ns) {
-      findings.push_back({Severity::kError, element_->line,
-                          "element '" + std::string(element_->name) + "', attribute '" + name + "'", "'" + std::string(*text) + "'",
-                          "a time with its offset, for instance 2026-03-02T08:00:00Z"});
+      findings.push_back({Severity::kError, element_->line, "element '" + std::string(element_->name) + "', attribute '" + name + "'",
+                          "'" + std::string(*text) + "'", "a time with its offset, for instance 2026-03-02T08:00:00Z"});
     }
     return time_ns;
   }

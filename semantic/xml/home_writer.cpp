@@ -96,10 +96,15 @@ std::string reindented(std::string_view text, std::string_view from, std::string
   }
 }
 
+/// Elements that form one list share a name here: furniture stands in one order, whether it is articulated or not.
+std::string_view listOf(std::string_view element) {
+  return element == "largeArticulatedObject" ? "largeObject" : element;
+}
+
 /// What becomes of one element's children.
 struct ChildrenPlan {
-  std::vector<const XmlNode*> before;               ///< of each child in the file: what it is
-  std::vector<const XmlNode*> after;                ///< what it becomes; null: it goes
+  std::vector<const XmlNode*> before;                        ///< of each child in the file: what it is
+  std::vector<const XmlNode*> after;                         ///< what it becomes; null: it goes
   std::map<std::size_t, std::vector<const XmlNode*>> added;  ///< behind which child (kNone: before the first) what comes in
 };
 
@@ -146,7 +151,7 @@ class Splicer {
     }
     writeOut(before);
     writeOut(after);
-    if (before.whole || (before.children.empty() && after.children.empty() && before.text != after.text)) {
+    if (before.whole || before.name != after.name || (before.children.empty() && after.children.empty() && before.text != after.text)) {
       append(out, after, indentAt(bytes_, laid.begin));
       return;
     }
@@ -193,8 +198,7 @@ class Splicer {
     }
     const std::vector<std::uint32_t> children = childrenOf(element);
     const ChildrenPlan plan = planFor(children, before, after);
-    const std::string indent =
-        children.empty() ? indentAt(bytes_, laid.begin) + "  " : indentAt(bytes_, elements_[children.front()].begin);
+    const std::string indent = children.empty() ? indentAt(bytes_, laid.begin) + "  " : indentAt(bytes_, elements_[children.front()].begin);
     add(out, plan, kNone, indent);
     std::size_t at = laid.tag_end;
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -275,7 +279,8 @@ class Splicer {
         if (tagName(tag(i)) == "smallObject") {
           for (const LaidAttribute& attribute : attributesOfTag(tag(i))) {
             if (attribute.name == "id") {
-              (*small_objects_)[std::string(tag(i).substr(attribute.value_begin, attribute.value_end - attribute.value_begin))] = {i, nullptr};
+              (*small_objects_)[std::string(tag(i).substr(attribute.value_begin, attribute.value_end - attribute.value_begin))] = {i,
+                                                                                                                                   nullptr};
             }
           }
         }
@@ -296,14 +301,14 @@ class Splicer {
     std::vector<std::string_view> names;  // in the order that the schema may ask for
     for (const XmlNode* parent : {&after, &before}) {
       for (const XmlNode& child : parent->children) {
-        if (std::find(names.begin(), names.end(), child.name) == names.end()) {
-          names.push_back(child.name);
+        if (std::find(names.begin(), names.end(), listOf(child.name)) == names.end()) {
+          names.push_back(listOf(child.name));
         }
       }
     }
     std::vector<std::size_t> rank_of_child;
     for (const std::uint32_t child : children) {
-      rank_of_child.push_back(static_cast<std::size_t>(std::find(names.begin(), names.end(), tagName(tag(child))) - names.begin()));
+      rank_of_child.push_back(static_cast<std::size_t>(std::find(names.begin(), names.end(), listOf(tagName(tag(child)))) - names.begin()));
     }
     for (std::size_t rank = 0; rank < names.size(); ++rank) {
       planName({names[rank], rank, rank_of_child}, before, after, plan);
@@ -320,7 +325,7 @@ class Splicer {
   static std::vector<const XmlNode*> named(const XmlNode& node, std::string_view name) {
     std::vector<const XmlNode*> children;
     for (const XmlNode& child : node.children) {
-      if (child.name == name) {
+      if (listOf(child.name) == name) {
         children.push_back(&child);
       }
     }

@@ -185,7 +185,8 @@ class Session {
     session.attributes_.clear();
     for (int i = 0; i < attributes; ++i) {
       const xmlChar** const a = list + static_cast<std::ptrdiff_t>(5) * i;  // name, prefix, URI, value, its end
-      session.attributes_.emplace_back(view(a[0]), std::string_view(reinterpret_cast<const char*>(a[3]), reinterpret_cast<const char*>(a[4])));
+      session.attributes_.emplace_back(view(a[0]),
+                                       std::string_view(reinterpret_cast<const char*>(a[3]), reinterpret_cast<const char*>(a[4])));
     }
     session.handOn(view(name));
   }

@@ -16,7 +16,7 @@ namespace oikos::semantic {
 struct XmlElement {
   std::string_view name;
   int line = 0;
-  int depth = 0;  ///< 0: the root
+  int depth = 0;                                                                 ///< 0: the root
   const std::vector<std::pair<std::string_view, std::string_view>>& attributes;  ///< name and value, until the handler returns
 };
 
@@ -32,8 +32,8 @@ struct XmlReading {
 
 /// Streams through XML in a few megabytes of memory, whatever its size, and hands on every element in order, those that the schema
 /// refuses too. It stops at the first that is not well formed, below 32 levels, after 1000 findings, and at a document type: no entity is
-/// ever expanded and nothing else is ever opened. Throws Error{kIo} if `input` (which `where` names) cannot be read to its end, Error{kInput}
-/// if it is larger than 1 GiB.
+/// ever expanded and nothing else is ever opened. Throws Error{kIo} if `input` (which `where` names) cannot be read to its end,
+/// Error{kInput} if it is larger than 1 GiB.
 [[nodiscard]] XmlReading readValidated(std::istream& input, const std::string& where, std::string_view schema,
                                        const ElementHandler& handler);
 

@@ -71,7 +71,8 @@ class Maker {
       object.box_model = box();
     }
     do {
-      object.default_places.push_back({places[static_cast<std::size_t>(upTo(static_cast<int>(places.size()) - 1))], choice<Relation>(), pose()});
+      object.default_places.push_back(
+          {places[static_cast<std::size_t>(upTo(static_cast<int>(places.size()) - 1))], choice<Relation>(), pose()});
     } while (coin());
     object.graspable = coin();
     do {
@@ -169,9 +170,8 @@ class Maker {
     object.grasping_points = some(2, [&] { return grasp(object.articulation && coin() ? object.articulation->parts[0].id.value : ""); });
     std::vector<std::string> places = rooms;
     places.insert(places.end(), carriers.begin(), carriers.end());
-    object.small_objects = some(4, [&] {
-      return smallObject(carriers[static_cast<std::size_t>(upTo(static_cast<int>(carriers.size()) - 1))], places);
-    });
+    object.small_objects =
+        some(4, [&] { return smallObject(carriers[static_cast<std::size_t>(upTo(static_cast<int>(carriers.size()) - 1))], places); });
     return object;
   }
 

@@ -98,16 +98,18 @@ TEST(SpliceXml, OneValueChangesOneLine) {
 TEST(SpliceXml, HandFormattingSurvivesInsideAChangedElement) {
   const std::string xml =
       "<?xml version='1.0'?>\n<!-- before -->\n<apartment id='a'   name=\"x &amp; y\"\n           version='1'><!-- first -->\n"
-      "\t<room name='r' id='r'><!-- why --><switch id='s' kind='rotational' pose='0 0 1  0 0 0' ></switch></room>\n</apartment>\n<!-- after -->\n";
+      "\t<room name='r' id='r'><!-- why --><switch id='s' kind='rotational' pose='0 0 1  0 0 0' ></switch></room>\n</apartment>\n<!-- "
+      "after -->\n";
   const Home before = reread(xml);
   Home after = before;
   after.rooms[0].switches[0].T_map_switch.position_m.x() = 2.0;
   after.rooms[0].type = "hall";
   after.as_of = 7;
-  EXPECT_EQ(spliceXml(xml, before, after),
-            "<?xml version='1.0'?>\n<!-- before -->\n<apartment id='a'   name=\"x &amp; y\"\n           version='1' asOf=\"7\"><!-- first -->\n"
-            "\t<room name='r' id='r' type=\"hall\"><!-- why --><switch id='s' kind='rotational' pose='2 0 1 0 0 0' ></switch></room>\n"
-            "</apartment>\n<!-- after -->\n");
+  EXPECT_EQ(
+      spliceXml(xml, before, after),
+      "<?xml version='1.0'?>\n<!-- before -->\n<apartment id='a'   name=\"x &amp; y\"\n           version='1' asOf=\"7\"><!-- first -->\n"
+      "\t<room name='r' id='r' type=\"hall\"><!-- why --><switch id='s' kind='rotational' pose='2 0 1 0 0 0' ></switch></room>\n"
+      "</apartment>\n<!-- after -->\n");
 }
 
 TEST(SpliceXml, AnObjectThatMovesTakesItsTextAlong) {
