@@ -11,6 +11,7 @@
 #include "core/recording/inspect/inspection.h"
 #include "core/recording/recording.h"
 #include "tools/command.h"
+#include "tools/terminal_progress.h"
 
 namespace oikos::tools {
 
@@ -48,10 +49,17 @@ recording::InspectionConfig configOf(const InspectOptions& options, const Global
   return config;
 }
 
+/// The bar is gone when it returns.
+recording::Inspection inspectWithProgress(const recording::Recording& recording, const recording::InspectionConfig& config,
+                                          const GlobalOptions& global) {
+  TerminalProgress progress(global);
+  return recording::inspect(recording, config, progress.sink());
+}
+
 ExitCode inspectRecording(const InspectOptions& options, const Session& session) {
   const recording::InspectionConfig config = configOf(options, session.options);
   const auto recording = recording::openRecording(options.recording, {.camera = options.camera});
-  const recording::Inspection inspection = recording::inspect(*recording, config);
+  const recording::Inspection inspection = inspectWithProgress(*recording, config, session.options);
   std::cout << (session.options.json ? recording::toJson(inspection) : recording::toText(inspection)) << '\n';
   return inspection.verdict == recording::Verdict::kBad ? ExitCode::kNoAnswer : ExitCode::kDone;
 }

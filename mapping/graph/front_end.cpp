@@ -13,6 +13,20 @@
 
 namespace oikos::mapping {
 
+namespace {
+
+/// Every n-th: neighbours in the list are of one keyframe, so all keyframes stay.
+std::vector<Observation> evenlyThinned(const std::vector<Observation>& observations, std::size_t most) {
+  std::vector<Observation> kept;
+  kept.reserve(std::min(most, observations.size()));
+  for (std::size_t i = 0; i < std::min(most, observations.size()); ++i) {
+    kept.push_back(observations[i * observations.size() / std::min(most, observations.size())]);
+  }
+  return kept;
+}
+
+}  // namespace
+
 struct FrontEnd::Current {
   const camera::RgbdFrame& frame;
   std::shared_ptr<const ImagePyramid> pyramid;
@@ -385,7 +399,7 @@ void FrontEnd::record(const Current& current, const FollowResult& seen, Tracking
     tracked.T_reference_frame = result_.graph.nodes[static_cast<std::size_t>(reference_)].T_world_camera.inverse() * T_world_camera_;
   }
   if (status != TrackingStatus::kLost) {
-    tracked.observations = seen.observations;
+    tracked.observations = evenlyThinned(seen.observations, static_cast<std::size_t>(config_.kept_sightings));
     tracked.inliers = static_cast<int>(seen.observations.size());
     tracked.rms_px = seen.pose.rms_px;
   } else {

@@ -33,6 +33,7 @@ struct FrontEndConfig {
   int loop_candidates = 4;              ///< places verified per keyframe
   int min_loop_votes = 15;
   double reuse_overlap = 0.6;  ///< share of an old keyframe's landmarks that must be seen again to take it instead of a new one
+  int kept_sightings = 160;    ///< of a frame's landmarks, for its final pose: what is kept of every frame grows with the drive
   int max_lost_frames = 5;     ///< lost for longer: a new sub-map is begun where there is enough to follow
 
   template <class Visitor>
@@ -51,6 +52,7 @@ struct FrontEndConfig {
     visitor("loop_candidates", loop_candidates);
     visitor("min_loop_votes", min_loop_votes);
     visitor("reuse_overlap", reuse_overlap);
+    visitor("kept_sightings", kept_sightings);
     visitor("max_lost_frames", max_lost_frames);
   }
   [[nodiscard]] std::vector<std::string> validate() const;

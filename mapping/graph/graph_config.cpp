@@ -21,6 +21,7 @@ std::vector<std::string> FrontEndConfig::validate() const {
       .atLeast("loop_candidates", loop_candidates, 0)
       .atLeast("min_loop_votes", min_loop_votes, 1)
       .between("reuse_overlap", reuse_overlap, 0.0, 1.0)
+      .atLeast("kept_sightings", kept_sightings, 30)
       .atLeast("max_lost_frames", max_lost_frames, 0);
   return rules.messages();
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/enum_table.h"
@@ -108,6 +109,8 @@ struct SmallObject {
   SourceLine line;
   bool operator==(const SmallObject&) const = default;
 };
+
+static_assert(std::is_nothrow_move_constructible_v<SmallObject>);  // a vector of them moves when it grows
 
 struct Part {
   PartId id;

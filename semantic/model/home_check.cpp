@@ -84,6 +84,13 @@ class Checker {
   }
 
   void collectIds() {
+    std::size_t about = 0;
+    for (const Room& room : home_.rooms) {
+      for (const LargeObject& object : room.objects) {
+        about += 1 + object.small_objects.size();
+      }
+    }
+    ids_.reserve(about);
     for (const Room& room : home_.rooms) {
       collect(room.id.value, Kind::kRoom, room.line);
       for (const Switch& s : room.switches) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -39,6 +40,7 @@ class Builder {
   }
 
   Home take() {
+    close(0);
     home_.vocabulary = std::move(vocabulary_);
     return std::move(home_);
   }
@@ -76,8 +78,17 @@ class Builder {
     part_ = part_ != nullptr && depth <= part_depth_ ? nullptr : part_;
     knob_ = knob_ != nullptr && depth <= knob_depth_ ? nullptr : knob_;
     small_ = small_ != nullptr && depth <= small_depth_ ? nullptr : small_;
-    large_ = large_ != nullptr && depth <= large_depth_ ? nullptr : large_;
+    if (large_ != nullptr && depth <= large_depth_) {
+      takeCarried();
+      large_ = nullptr;
+    }
     room_ = room_ != nullptr && depth <= room_depth_ ? nullptr : room_;
+  }
+
+  /// Gathered apart, in memory that serves for one piece of furniture after another, so that each gets just as much as it needs.
+  void takeCarried() {
+    large_->small_objects.assign(std::move_iterator(carried_.begin()), std::move_iterator(carried_.end()));
+    carried_.clear();
   }
 
   [[nodiscard]] SourceLine line() const { return {element_->line}; }
@@ -86,8 +97,9 @@ class Builder {
     const auto text = a.find(name);
     const auto time_ns = text ? base::parseRfc3339Ns(*text) : std::nullopt;
     if (text && !time_ns) {
-      findings.push_back({Severity::kError, element_->line, "element '" + std::string(element_->name) + "', attribute '" + name + "'",
-                          "'" + std::string(*text) + "'", "a time with its offset, for instance 2026-03-02T08:00:00Z"});
+      const std::string element = "element '" + std::string(element_->name) + "', attribute '" + name + "'";
+      const std::string found = std::string("'").append(*text).append("'");
+      findings.push_back({Severity::kError, element_->line, element, found, "a time with its offset, for instance 2026-03-02T08:00:00Z"});
     }
     return time_ns;
   }
@@ -156,7 +168,7 @@ class Builder {
     if (room_ == nullptr) {
       return;
     }
-    SmallObject& object = large_ != nullptr ? large_->small_objects.emplace_back() : room_->small_objects.emplace_back();
+    SmallObject& object = large_ != nullptr ? carried_.emplace_back() : room_->small_objects.emplace_back();
     object.id.value = a.text("id");
     object.type = a.text("type");
     object.label = a.text("label");
@@ -297,6 +309,7 @@ class Builder {
   const XmlElement* element_ = nullptr;
   Room* room_ = nullptr;
   LargeObject* large_ = nullptr;
+  std::vector<SmallObject> carried_;  // by large_
   SmallObject* small_ = nullptr;
   Part* part_ = nullptr;
   Knob* knob_ = nullptr;

@@ -2,6 +2,7 @@
 #include "core/recording/inspect/inspection.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -75,13 +76,15 @@ Look lookAt(const Recording& recording, int index, bool with_geometry) {
   return look;
 }
 
-std::vector<Look> lookAtFrames(const Recording& recording, const InspectionConfig& config) {
+std::vector<Look> lookAtFrames(const Recording& recording, const InspectionConfig& config, const base::ProgressSink& progress) {
   const std::vector<int> chosen = chooseFrames(recording.frameCount(), config.max_frames);
   const int count = static_cast<int>(chosen.size());
   const int geometry_step = std::max(1, count / config.geometry_frames);
   std::vector<Look> looks(chosen.size());
+  std::atomic<int> done = 0;
   base::parallelFor(count, config.threads, [&](int i) {
     looks[static_cast<std::size_t>(i)] = lookAt(recording, chosen[static_cast<std::size_t>(i)], i % geometry_step == 0);
+    base::reportProgress(progress, {"inspecting", ++done, count});
   });
   return looks;
 }
@@ -195,11 +198,11 @@ std::vector<std::string> InspectionConfig::validate() const {
       .messages();
 }
 
-Inspection inspect(const Recording& recording, const InspectionConfig& config) {
+Inspection inspect(const Recording& recording, const InspectionConfig& config, const base::ProgressSink& progress) {
   if (const auto problems = config.validate(); !problems.empty()) {
     throw base::Error(base::ErrorCode::kUsage, problems.front());
   }
-  const std::vector<Look> looks = lookAtFrames(recording, config);
+  const std::vector<Look> looks = lookAtFrames(recording, config, progress);
   const std::vector<double> rates_rad_s = turnRates(looks, recording.camera());
   Inspection inspection;
   inspection.listing = recording.listing();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/recording/recording.h"
 
 namespace oikos::recording {
@@ -93,7 +94,7 @@ struct Inspection {
 
 /// Never fails because of the recording's quality. Throws Error{kUsage} if the configuration is wrong. About 5 ms of processor time a
 /// frame.
-[[nodiscard]] Inspection inspect(const Recording& recording, const InspectionConfig& config = {});
+[[nodiscard]] Inspection inspect(const Recording& recording, const InspectionConfig& config = {}, const base::ProgressSink& progress = {});
 
 /// For a person; lines of text without a last newline.
 [[nodiscard]] std::string toText(const Inspection& inspection);

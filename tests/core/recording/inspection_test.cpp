@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
@@ -201,6 +202,18 @@ TEST(Inspection, TheSameForAnyNumberOfThreads) {
   const std::string serial = toJson(inspect(SimulatedDrive({}), config));
   config.threads = 3;
   EXPECT_EQ(toJson(inspect(SimulatedDrive({}), config)), serial);
+}
+
+TEST(Inspect, SaysHowFarItHasCome) {
+  std::set<int> done;
+  std::mutex mutex;
+  (void)inspect(SimulatedDrive({.frames = 30}), {}, [&](const base::Progress& progress) {
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(progress.total, 30);
+    done.insert(progress.done);
+  });
+  EXPECT_EQ(done.size(), 30U);
+  EXPECT_EQ(*done.rbegin(), 30);
 }
 
 TEST(Inspection, Reports) {
