@@ -41,14 +41,6 @@ constexpr auto enumTable(EventKind) {
                                                    {EventKind::kForgotten, "forgotten"}});
 }
 
-/// Where a small object is.
-struct Placement {
-  std::string parent;  ///< id of an object, part or room
-  Relation relation = Relation::kOn;
-  Pose T_parent_object;
-  bool operator==(const Placement&) const = default;
-};
-
 /// Where a piece of furniture stands.
 struct FurniturePose {
   Pose T_map_object;

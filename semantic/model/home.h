@@ -74,12 +74,12 @@ struct Property {
   bool operator==(const Property&) const = default;
 };
 
-/// A place where a small object is usually found.
-struct DefaultPlace {
+/// Where a small object is, or usually is.
+struct Placement {
   std::string parent;  ///< id of an object, part or room
   Relation relation = Relation::kOn;
   Pose T_parent_object;
-  bool operator==(const DefaultPlace&) const = default;
+  bool operator==(const Placement&) const = default;
 };
 
 /// What a grasp needs to know beside the pose (S281).
@@ -100,7 +100,7 @@ struct SmallObject {
   Pose T_parent_object;
   std::string model;  ///< file below the home; empty: none
   std::optional<Box> box_model;
-  std::vector<DefaultPlace> default_places;
+  std::vector<Placement> default_places;  ///< where it is usually found
   bool graspable = false;
   std::vector<GraspingPoint> grasping_points;
   GraspGeometry grasp;

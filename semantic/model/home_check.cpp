@@ -13,6 +13,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
+#include "semantic/model/outline.h"
 #include "semantic/model/placement.h"
 #include "semantic/model/relations.h"
 
@@ -29,18 +30,6 @@ constexpr const char* nameOf(Kind kind) {
 
 std::string quoted(const std::string& text) {
   return "'" + text + "'";
-}
-
-bool isInside(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& polygon) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Eigen::Vector2d& a = polygon[i];
-    const Eigen::Vector2d& b = polygon[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
-      inside = !inside;
-    }
-  }
-  return inside;
 }
 
 bool isDirection(const Eigen::Vector3d& axis) {
@@ -302,17 +291,13 @@ class Checker {
 
   void checkRelation(const SmallObject& small, const LargeObject& object) {
     const std::vector<Box> boxes = boxesOf(object, small.parent);
-    std::set<Relation> seen;
-    for (const Box& box : boxes) {
-      if (const auto relation = findRelation(box, small.T_parent_object.toIsometry(), small.box_model)) {
-        seen.insert(*relation);
-      }
-    }
-    if (!boxes.empty() && !seen.contains(small.relation)) {
-      const std::string geometry = seen.empty() ? "beside it" : std::string(base::toString(*seen.begin())) + " it";
+    const std::vector<SpatialRelation> seen = spatialRelations(boxes, small.T_parent_object.toIsometry(), small.box_model);
+    const std::string_view stored = base::toString(small.relation);
+    const auto is_stored = [&](SpatialRelation relation) { return base::toString(relation) == stored; };
+    if (!boxes.empty() && std::none_of(seen.begin(), seen.end(), is_stored)) {
       warn(small.line.number, "small object " + quoted(small.id.value),
-           "relation " + quoted(std::string(base::toString(small.relation))) + " to " + quoted(small.parent),
-           "by their boxes it is " + geometry);
+           "relation " + quoted(std::string(stored)) + " to " + quoted(small.parent),
+           "by their boxes it is " + (seen.empty() ? "far from" : std::string(base::toString(seen.front()))) + " it");
     }
   }
 
@@ -328,7 +313,7 @@ class Checker {
     if (small.default_places.empty()) {
       error(line, element, "no default place", "at least one <defaultPlace>");
     }
-    for (const DefaultPlace& place : small.default_places) {
+    for (const Placement& place : small.default_places) {
       const auto found = ids_.find(place.parent);
       if (found == ids_.end() ||
           (found->second.kind != Kind::kObject && found->second.kind != Kind::kPart && found->second.kind != Kind::kRoom)) {

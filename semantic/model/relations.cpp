@@ -2,6 +2,7 @@
 #include "semantic/model/relations.h"
 
 #include <cmath>
+#include <set>
 
 #include "semantic/model/placement.h"
 
@@ -22,6 +23,28 @@ std::optional<Relation> findRelation(const Box& carrier, const Eigen::Isometry3d
     return Relation::kIn;
   }
   return middle.z() < 0.0 ? std::optional(Relation::kUnder) : std::nullopt;
+}
+
+double distanceTo(const Box& box, const Eigen::Vector3d& point_carrier) {
+  const Eigen::Vector3d point_box = box.center.toIsometry().inverse() * point_carrier;
+  return (point_box.cwiseAbs() - box.size_m / 2.0).cwiseMax(0.0).norm();
+}
+
+std::vector<SpatialRelation> spatialRelations(std::span<const Box> carrier, const Eigen::Isometry3d& T_carrier_object,
+                                              const std::optional<Box>& object_box) {
+  const Eigen::Vector3d middle = T_carrier_object * (object_box ? object_box->center.position_m : Eigen::Vector3d::Zero());
+  std::set<SpatialRelation> relations;
+  bool is_near = false;
+  for (const Box& box : carrier) {
+    if (const auto relation = findRelation(box, T_carrier_object, object_box)) {
+      relations.insert(base::findEnum<SpatialRelation>(base::toString(*relation)).value());
+    }
+    is_near = is_near || distanceTo(box, middle) <= kNear_m;
+  }
+  if (relations.empty() && is_near) {
+    relations.insert(SpatialRelation::kNear);
+  }
+  return {relations.begin(), relations.end()};
 }
 
 std::vector<Box> boxesOf(const LargeObject& object, std::string_view parent) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -15,9 +16,25 @@ namespace oikos::semantic {
 [[nodiscard]] std::optional<Relation> findRelation(const Box& carrier, const Eigen::Isometry3d& T_carrier_object,
                                                    const std::optional<Box>& object_box);
 
+/// What geometry alone says of two things; the first three can be stored.
+enum class SpatialRelation { kOn, kIn, kUnder, kNear };
+constexpr auto enumTable(SpatialRelation) {
+  return std::to_array<base::EnumName<SpatialRelation>>(
+      {{SpatialRelation::kOn, "on"}, {SpatialRelation::kIn, "in"}, {SpatialRelation::kUnder, "under"}, {SpatialRelation::kNear, "near"}});
+}
+
+/// To a carrier of several boxes: every relation that one of them gives, in the enum's order; `near` alone if there is none and the
+/// object's middle is at most `kNear_m` from one; empty: far off.
+[[nodiscard]] std::vector<SpatialRelation> spatialRelations(std::span<const Box> carrier, const Eigen::Isometry3d& T_carrier_object,
+                                                            const std::optional<Box>& object_box);
+
+/// From a point to the nearest of a box; 0 within.
+[[nodiscard]] double distanceTo(const Box& box, const Eigen::Vector3d& point_carrier);
+
 /// The boxes of what `parent` names (a large object with all its parts, or one part), in that frame.
 [[nodiscard]] std::vector<Box> boxesOf(const LargeObject& object, std::string_view parent);
 
 constexpr double kTouch_m = 0.05;
+constexpr double kNear_m = 0.5;
 
 }  // namespace oikos::semantic

@@ -168,7 +168,7 @@ void write(const SmallObject& object, XmlNode& node) {
   for (const Property& property : object.properties) {
     node.children.push_back(leaf("property", {{"name", property.name}, {"value", property.value}}));
   }
-  for (const DefaultPlace& place : object.default_places) {
+  for (const Placement& place : object.default_places) {
     node.children.push_back(leaf(
         "defaultPlace",
         {{"parent", place.parent}, {"relation", std::string(base::toString(place.relation))}, {"pose", poseText(place.T_parent_object)}}));

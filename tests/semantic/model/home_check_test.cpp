@@ -53,7 +53,7 @@ TEST(HomeCheck, ARelationThatTheBoxesContradict) {
   expectOnly(checkHome(home), Severity::kWarning, "small object 'blue-cup'", "by their boxes it is on it");
   cup.relation = Relation::kOn;
   cup.T_parent_object.position_m.x() = 0.9;
-  expectOnly(checkHome(home), Severity::kWarning, "small object 'blue-cup'", "beside it");
+  expectOnly(checkHome(home), Severity::kWarning, "small object 'blue-cup'", "near it");
 }
 
 TEST(HomeCheck, AJointWithinARoundingOfItsLimitIsFine) {

@@ -36,6 +36,24 @@ TEST(Relations, ATurnedCarrierIsSeenFromItsOwnAxes) {
   EXPECT_EQ(findRelation(turned, at(1.4, 0.0, 1.0), kCup), std::nullopt);
 }
 
+TEST(Relations, DistanceToABox) {
+  EXPECT_DOUBLE_EQ(distanceTo(kCupboard, {0.1, 0.2, 0.9}), 0.0);
+  EXPECT_NEAR(distanceTo(kCupboard, {0.25 + 0.3, 0.5 + 0.4, 0.9}), 0.5, 1e-12);
+  const Box turned{{{1.0, 0.0, 0.5}, {0.0, 0.0, 3.14159265358979 / 2.0}}, {1.0, 0.2, 1.0}};
+  EXPECT_NEAR(distanceTo(turned, {1.0, 0.7, 0.5}), 0.2, 1e-12);
+}
+
+TEST(Relations, ToSeveralBoxesAtOnce) {
+  using enum SpatialRelation;
+  const std::vector<Box> boxes{kTableTop, kCupboard};
+  const auto relations = [&](double x, double y, double z) { return spatialRelations(boxes, at(x, y, z), kCup); };
+  EXPECT_EQ(relations(0.0, 0.0, 0.75), (std::vector{kOn, kIn}));
+  EXPECT_EQ(relations(0.0, 0.0, 0.2), (std::vector{kIn, kUnder}));
+  EXPECT_EQ(relations(0.6 + 0.4, 0.0, 0.7), std::vector{kNear});
+  EXPECT_EQ(relations(0.6 + 0.6, 0.0, 0.7), std::vector<SpatialRelation>{});
+  EXPECT_EQ(spatialRelations({}, at(0.0, 0.0, 0.0), kCup), std::vector<SpatialRelation>{});
+}
+
 TEST(Relations, BoxesOfAnObjectIncludeItsPartsWhereTheirJointsHoldThem) {
   LargeObject chest;
   chest.id = {"chest"};
