@@ -9,10 +9,13 @@
 namespace oikos::semantic {
 
 /// {"number", "time", "recording", "frame", "subject", "kind", "before", "after", "confidence", "evidence"}; what is not known is left out.
-/// A state is {"parent", "relation", "pose": [x, y, z, roll, pitch, yaw]}, {"pose": […]}, {"value_deg": d}, {"value_m": d} or
-/// {"setting": name}; metres and degrees, times RFC 3339.
+/// Metres and degrees, times RFC 3339.
 [[nodiscard]] nlohmann::ordered_json toJson(const Event& event);
-/// Throws Error{kInput} that names the key, what was found and what would be right; `where` is put in front.
+/// {"parent", "relation", "pose": [x, y, z, roll, pitch, yaw]}, {"pose": […]}, {"value_deg": d}, {"value_m": d} or {"setting": name}.
+[[nodiscard]] nlohmann::ordered_json toJson(const State& state);
+
+/// Throws Error{kInput} that names the key, what was found and what would be right; `where` is put in front. An unknown key is an error.
 [[nodiscard]] Event eventFromJson(const nlohmann::json& json, const std::string& where);
+[[nodiscard]] State stateFromJson(const nlohmann::json& json, const std::string& where);
 
 }  // namespace oikos::semantic

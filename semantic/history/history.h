@@ -18,7 +18,8 @@ namespace oikos::semantic {
 
 enum class HistoryAccess { kRead, kAppend };
 
-/// One open log. All methods are thread-safe; all throw Error{kIo} if the file cannot be read or written.
+/// One open log. All methods are thread-safe; all throw Error{kIo} if the file cannot be read or written. A recording is taken back by an
+/// event `reverted` that names it: what it had said before no longer counts, except in the order of commits.
 class History {
  public:
   /// kAppend creates the file if it is missing; kRead takes a missing one as empty. Throws Error{kInput} for a file that is no history or
@@ -28,8 +29,8 @@ class History {
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
-  /// Commits the events in their order, all or none, and returns the number of the last. They are on the disk when it returns (what comes
-  /// from several threads at a time shares one sync). Their own numbers are ignored.
+  /// Commits the events in their order, all or none, and returns the number of the last. They are on the disk when it returns. Their own
+  /// numbers are ignored.
   std::int64_t append(std::span<const Event> events);
 
   /// Of the last event; 0: none yet. Sees what other processes have committed.
@@ -44,8 +45,19 @@ class History {
   [[nodiscard]] std::optional<Event> findStateAt(std::string_view subject, std::int64_t time_ns) const;
   /// The first after `time_ns` that does. O(log n).
   [[nodiscard]] std::optional<Event> findStateAfter(std::string_view subject, std::int64_t time_ns) const;
+  /// The newest sighting by `time_ns`.
+  [[nodiscard]] std::optional<Event> findSightingAt(std::string_view subject, std::int64_t time_ns) const;
   /// Every subject that a state was ever said of, in alphabetical order.
   [[nodiscard]] std::vector<std::string> subjects() const;
+  /// home.xml as it is about to be written; the last two are kept. It is on the disk when it returns.
+  struct Checkpoint {
+    std::int64_t as_of = 0;
+    std::string content;
+  };
+  void storeCheckpoint(const Checkpoint& checkpoint);
+  /// The newest first.
+  [[nodiscard]] std::vector<Checkpoint> checkpoints() const;
+
   /// The recording with the latest event, and the times of its first and last event; nothing: no recording yet.
   struct RecordingSpan {
     std::string recording;
@@ -58,9 +70,5 @@ class History {
   class Database;
   std::unique_ptr<Database> database_;
 };
-
-/// The home as it was at `time_ns`: the states that the history had by then; where it has none, that from before the first change, else
-/// that of `current`. What stands in `current` and is no state (labels, models, shapes) stays. O(k log n) for k subjects with a history.
-[[nodiscard]] Home homeAt(const Home& current, const History& history, std::int64_t time_ns);
 
 }  // namespace oikos::semantic

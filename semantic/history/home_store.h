@@ -24,9 +24,6 @@ struct HomeSnapshot {
   std::int64_t structure = 0;  ///< grows when anything but states has changed: rooms, objects, labels, words
 };
 
-/// home.xml with every event of the history that came after it. Takes no lock and writes nothing. Throws Error.
-[[nodiscard]] Home loadHome(const std::filesystem::path& folder);
-
 /// The keeper of a home: one per home and machine. All methods are thread-safe.
 class HomeStore {
  public:

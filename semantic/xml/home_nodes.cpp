@@ -2,12 +2,11 @@
 #include "semantic/xml/home_nodes.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "core/base/enum_table.h"
 #include "core/base/number_text.h"
 #include "core/base/rfc3339.h"
+#include "semantic/model/degrees.h"
 
 namespace oikos::semantic {
 
@@ -15,22 +14,12 @@ namespace {
 
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-/// The shortest text of an angle in degrees that reads back as the same radians.
-std::string degreesText(double rad) {
-  const double degrees = rad / kRadPerDeg;
-  std::array<char, 64> text{};
-  for (int digits = 6; digits <= 17; ++digits) {
-    const auto [end, failure] = std::to_chars(text.data(), text.data() + text.size(), degrees, std::chars_format::general, digits);
-    const std::string_view candidate(text.data(), static_cast<std::size_t>(end - text.data()));
-    if (const auto value = base::findNumber(candidate); value && *value * kRadPerDeg == rad) {
-      return *value == 0.0 ? "0" : std::string(candidate);
-    }
-  }
-  return base::toText(degrees);
-}
-
 std::string numberText(double value) {
   return base::toText(value + 0.0);  // no -0
+}
+
+std::string degreesText(double rad) {
+  return base::toText(toDegrees(rad));
 }
 
 std::string vectorText(const Eigen::Vector3d& v) {

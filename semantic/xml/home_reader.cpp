@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/posix_file.h"
 #include "core/base/rfc3339.h"
 #include "semantic/model/home_check.h"
 #include "semantic/xml/attributes.h"
@@ -350,6 +351,19 @@ HomeReading readHome(const std::filesystem::path& file) {
 HomeReading readHomeText(const std::string& text, const std::string& where) {
   std::istringstream input(text);
   return read(input, where);
+}
+
+Home getHome(HomeReading reading, const std::filesystem::path& file) {
+  for (const Finding& finding : reading.findings) {
+    if (finding.severity == Severity::kError) {
+      throw base::Error(base::ErrorCode::kInput,
+                        finding.element + ": " + finding.found + (finding.expected.empty() ? "" : "; expected " + finding.expected) +
+                            " (oikos check " + base::folderOf(file).string() + " lists everything)",
+                        file.string() + ":" + std::to_string(finding.line));
+    }
+  }
+  OIKOS_CHECK(reading.complete);
+  return std::move(reading.home);
 }
 
 }  // namespace oikos::semantic

@@ -23,4 +23,7 @@ struct HomeReading {
 /// The same for text at hand; `where` names it in errors.
 [[nodiscard]] HomeReading readHomeText(const std::string& text, const std::string& where);
 
+/// The home of a reading without errors. Throws Error{kInput} with the first error; `file` is where it was read from.
+[[nodiscard]] Home getHome(HomeReading reading, const std::filesystem::path& file);
+
 }  // namespace oikos::semantic
