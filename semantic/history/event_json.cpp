@@ -204,6 +204,19 @@ OrderedJson toJson(const Event& event) {
   return json;
 }
 
+State asStored(const State& state) {
+  const auto angle = [](double rad) { return toDegrees(rad) * kRadPerDeg; };
+  State stored = state;
+  if (auto* const placement = std::get_if<Placement>(&stored)) {
+    placement->T_parent_object.roll_pitch_yaw_rad = placement->T_parent_object.roll_pitch_yaw_rad.unaryExpr(angle);
+  } else if (auto* const pose = std::get_if<FurniturePose>(&stored)) {
+    pose->T_map_object.roll_pitch_yaw_rad = pose->T_map_object.roll_pitch_yaw_rad.unaryExpr(angle);
+  } else if (auto* const joint = std::get_if<JointValue>(&stored); joint != nullptr && joint->type == JointType::kRevolute) {
+    joint->value = angle(joint->value);
+  }
+  return stored;
+}
+
 State stateFromJson(const Json& json, const std::string& where) {
   Reader reader(json, where);
   State state = readState(reader);

@@ -14,6 +14,9 @@ namespace oikos::semantic {
 /// {"parent", "relation", "pose": [x, y, z, roll, pitch, yaw]}, {"pose": […]}, {"value_deg": d}, {"value_m": d} or {"setting": name}.
 [[nodiscard]] nlohmann::ordered_json toJson(const State& state);
 
+/// The state as it comes back from its JSON: some angles have no text in degrees that gives the same bits.
+[[nodiscard]] State asStored(const State& state);
+
 /// Throws Error{kInput} that names the key, what was found and what would be right; `where` is put in front. An unknown key is an error.
 [[nodiscard]] Event eventFromJson(const nlohmann::json& json, const std::string& where);
 [[nodiscard]] State stateFromJson(const nlohmann::json& json, const std::string& where);

@@ -176,7 +176,37 @@ class History::Database {
         : database(openForWriting(file)),
           insert(database, "INSERT INTO event VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
           last(database, "SELECT max(number) FROM event") {}
-    std::mutex mutex;
+
+    std::int64_t lastNumber() {
+      const SqliteUse use(last);
+      return use->step() ? use->integer(0) : 0;
+    }
+
+    void add(const Event& event, std::int64_t number) {
+      const SqliteUse use(insert);
+      use->bind(1, number);
+      use->bind(2, event.time_ns);
+      bindTextOrNull(*use, 3, event.recording);
+      event.frame ? use->bind(4, *event.frame) : use->bindNull(4);
+      use->bind(5, std::string_view(event.subject));
+      use->bind(6, base::toString(event.kind));
+      bindState(*use, 7, event.before);
+      bindState(*use, 8, event.after);
+      use->bind(9, event.confidence);
+      bindTextOrNull(*use, 10, event.evidence);
+      use->step();
+    }
+
+    void add(const Checkpoint& checkpoint, const std::string& deflated_home) {
+      SqliteStatement statement(database, "INSERT INTO checkpoint(as_of, size, home_xml_deflated) VALUES(?, ?, ?)");
+      statement.bind(1, checkpoint.as_of);
+      statement.bind(2, static_cast<std::int64_t>(checkpoint.content.size()));
+      statement.bindBlob(3, deflated_home);
+      statement.step();
+      database.execute("DELETE FROM checkpoint WHERE id <= (SELECT max(id) FROM checkpoint) - 2");
+    }
+
+    std::mutex mutex;  // of everything here
     SqliteDatabase database;
     SqliteStatement insert;
     SqliteStatement last;
@@ -238,28 +268,17 @@ History::History(const std::filesystem::path& file, HistoryAccess access) : data
 
 History::~History() = default;
 
-std::int64_t History::append(std::span<const Event> events) {
+std::int64_t History::append(std::span<const Event> events, const Checkpoint* checkpoint) {
+  const std::string deflated_home = checkpoint == nullptr ? "" : deflated(checkpoint->content);
   Database::Writer& writer = database_->writer();
   const std::lock_guard lock(writer.mutex);
   SqliteTransaction transaction(writer.database);
-  std::int64_t number = 0;
-  {
-    const SqliteUse last(writer.last);
-    number = last->step() ? last->integer(0) : 0;
-  }
+  std::int64_t number = writer.lastNumber();
   for (const Event& event : events) {
-    const SqliteUse insert(writer.insert);
-    insert->bind(1, ++number);
-    insert->bind(2, event.time_ns);
-    bindTextOrNull(*insert, 3, event.recording);
-    event.frame ? insert->bind(4, *event.frame) : insert->bindNull(4);
-    insert->bind(5, std::string_view(event.subject));
-    insert->bind(6, base::toString(event.kind));
-    bindState(*insert, 7, event.before);
-    bindState(*insert, 8, event.after);
-    insert->bind(9, event.confidence);
-    bindTextOrNull(*insert, 10, event.evidence);
-    insert->step();
+    writer.add(event, ++number);
+  }
+  if (checkpoint != nullptr) {
+    writer.add(*checkpoint, deflated_home);
   }
   transaction.commit();
   return number;
@@ -372,20 +391,6 @@ std::optional<History::RecordingSpan> History::findLastRecording() const {
         return span;
       },
       std::optional<RecordingSpan>());
-}
-
-void History::storeCheckpoint(const Checkpoint& checkpoint) {
-  const std::string bytes = deflated(checkpoint.content);
-  Database::Writer& writer = database_->writer();
-  const std::lock_guard lock(writer.mutex);
-  SqliteTransaction transaction(writer.database);
-  SqliteStatement insert(writer.database, "INSERT INTO checkpoint(as_of, size, home_xml_deflated) VALUES(?, ?, ?)");
-  insert.bind(1, checkpoint.as_of);
-  insert.bind(2, static_cast<std::int64_t>(checkpoint.content.size()));
-  insert.bindBlob(3, bytes);
-  insert.step();
-  writer.database.execute("DELETE FROM checkpoint WHERE id <= (SELECT max(id) FROM checkpoint) - 2");
-  transaction.commit();
 }
 
 std::vector<History::Checkpoint> History::checkpoints() const {

@@ -29,9 +29,17 @@ class History {
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
-  /// Commits the events in their order, all or none, and returns the number of the last. They are on the disk when it returns. Their own
-  /// numbers are ignored.
-  std::int64_t append(std::span<const Event> events);
+  /// home.xml as it is on the disk, or about to be.
+  struct Checkpoint {
+    std::int64_t as_of = 0;
+    std::string content;
+  };
+
+  /// Commits the events in their order, and the checkpoint with them, all or none, and returns the number of the last. They are on the disk
+  /// when it returns. Their own numbers are ignored. Of checkpoints the last two are kept.
+  std::int64_t append(std::span<const Event> events, const Checkpoint* checkpoint = nullptr);
+  /// The newest first.
+  [[nodiscard]] std::vector<Checkpoint> checkpoints() const;
 
   /// Of the last event; 0: none yet. Sees what other processes have committed.
   [[nodiscard]] std::int64_t lastNumber() const;
@@ -49,15 +57,6 @@ class History {
   [[nodiscard]] std::optional<Event> findSightingAt(std::string_view subject, std::int64_t time_ns) const;
   /// Every subject that a state was ever said of, in alphabetical order.
   [[nodiscard]] std::vector<std::string> subjects() const;
-  /// home.xml as it is about to be written; the last two are kept. It is on the disk when it returns.
-  struct Checkpoint {
-    std::int64_t as_of = 0;
-    std::string content;
-  };
-  void storeCheckpoint(const Checkpoint& checkpoint);
-  /// The newest first.
-  [[nodiscard]] std::vector<Checkpoint> checkpoints() const;
-
   /// The recording with the latest event, and the times of its first and last event; nothing: no recording yet.
   struct RecordingSpan {
     std::string recording;

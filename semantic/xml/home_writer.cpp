@@ -8,9 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/base/atomic_file.h"
 #include "core/base/error.h"
-#include "core/base/read_file.h"
 #include "semantic/xml/home_nodes.h"
 #include "semantic/xml/home_reader.h"
 #include "semantic/xml/xml_layout.h"
@@ -389,14 +387,14 @@ class Splicer {
 };
 
 /// Throws unless the text reads as the home.
-void verify(const std::string& text, const Home& home, const std::filesystem::path& file) {
-  const HomeReading reading = readHomeText(text, file.string());
+void verify(const std::string& text, const Home& home, const std::string& where) {
+  const HomeReading reading = readHomeText(text, where);
   for (const Finding& finding : reading.findings) {
     if (finding.severity == Severity::kError) {
       throw base::Error(base::ErrorCode::kInput,
                         "would not be valid, so the old one was kept: " + finding.element + ": " + finding.found +
                             (finding.expected.empty() ? "" : "; expected " + finding.expected),
-                        file.string());
+                        where);
     }
   }
   OIKOS_CHECK(reading.complete);
@@ -416,10 +414,10 @@ std::string spliceXml(std::string_view bytes, const Home& before, const Home& af
   return Splicer(bytes, before, after).run();
 }
 
-void saveHome(const std::filesystem::path& file, const Home& before, const Home& after) {
-  const std::string text = spliceXml(base::readFile(file), before, after);
-  verify(text, after, file);
-  base::writeFileAtomically(file, text);
+std::string spliceVerified(std::string_view bytes, const Home& before, const Home& after, const std::string& where) {
+  std::string text = spliceXml(bytes, before, after);
+  verify(text, after, where);
+  return text;
 }
 
 }  // namespace oikos::semantic

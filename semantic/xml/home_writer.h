@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -17,8 +16,8 @@ namespace oikos::semantic {
 /// line breaks of everything else stay; an object that moves takes its own along. `bytes` must be UTF-8 and valid.
 [[nodiscard]] std::string spliceXml(std::string_view bytes, const Home& before, const Home& after);
 
-/// Replaces a home.xml that reads `before` by one that reads `after`, atomically, once the new text has been read back and found valid and
-/// equal. Throws Error{kIo} (the old file stays), Error{kInput} where `after` is no valid home.
-void saveHome(const std::filesystem::path& file, const Home& before, const Home& after);
+/// The same, once the new text has been read back and found valid and equal; `where` names it in errors. Throws Error{kInput} where `after`
+/// is no valid home.
+[[nodiscard]] std::string spliceVerified(std::string_view bytes, const Home& before, const Home& after, const std::string& where);
 
 }  // namespace oikos::semantic

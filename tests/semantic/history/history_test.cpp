@@ -221,7 +221,8 @@ TEST_F(HistoryTest, KeepsTheLastTwoCheckpoints) {
   History history(file_, HistoryAccess::kAppend);
   EXPECT_TRUE(history.checkpoints().empty());
   for (std::int64_t i = 1; i <= 4; ++i) {
-    history.storeCheckpoint({i, "content " + std::to_string(i)});
+    const History::Checkpoint checkpoint{i, "content " + std::to_string(i)};
+    (void)history.append({}, &checkpoint);
   }
   const auto stored = history.checkpoints();
   ASSERT_EQ(stored.size(), 2U);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -13,7 +12,6 @@
 #include "core/base/read_file.h"
 #include "semantic/xml/home_reader.h"
 #include "tests/support/random_home.h"
-#include "tests/support/temporary_folder.h"
 
 namespace oikos::semantic {
 namespace {
@@ -138,28 +136,16 @@ TEST(SpliceXml, TextThatNeedsEscaping) {
   EXPECT_TRUE(reread(spliceXml(papersXml(), before, after)) == after);
 }
 
-TEST(SaveHome, RefusesWhatCouldNotBeReadBack) {
-  const test::TemporaryFolder folder;
-  const auto file = folder.write("home.xml", papersXml());
+TEST(SpliceVerified, RefusesWhatCouldNotBeReadBack) {
   const Home before = reread(papersXml());
   Home after = before;
   after.rooms[0].objects[2].edit().articulation->joints[0].value = 500.0 * kRadPerDeg;
-  EXPECT_THROW(saveHome(file, before, after), base::Error);
-  EXPECT_EQ(base::readFile(file), papersXml());
+  EXPECT_THROW((void)spliceVerified(papersXml(), before, after, "home"), base::Error);
   after = before;
   after.rooms[0].id.value = "not an id";
-  EXPECT_THROW(saveHome(file, before, after), base::Error);
-  EXPECT_EQ(base::readFile(file), papersXml());
-}
-
-TEST(SaveHome, ReplacesTheFile) {
-  const test::TemporaryFolder folder;
-  const auto file = folder.write("home.xml", papersXml());
-  const Home before = reread(papersXml());
-  const Home after = test::randomlyChanged(before, 7);
-  saveHome(file, before, after);
-  EXPECT_TRUE(readHome(file).home == after);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_THROW((void)spliceVerified(papersXml(), before, after, "home"), base::Error);
+  after = test::randomlyChanged(before, 7);
+  EXPECT_EQ(spliceVerified(papersXml(), before, after, "home"), spliceXml(papersXml(), before, after));
 }
 
 }  // namespace
