@@ -189,7 +189,7 @@ toml::table parseSettingValue(const Setting& setting, const ConfigField& field, 
   }
   const Error no_value(origin.code, setting.key + " = " + setting.value + ": is not a TOML value", origin.where);
   try {
-    toml::table table = toml::parse("value = " + setting.value);
+    const toml::table table = toml::parse("value = " + setting.value);
     return table.size() == 1 ? table : throw no_value;  // a line break in the value would begin another key
   } catch (const toml::parse_error&) {
     throw no_value;

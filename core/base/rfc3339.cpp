@@ -95,7 +95,8 @@ std::optional<std::int64_t> parseRfc3339Ns(std::string_view text) {
     return std::nullopt;
   }
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
-  const std::int64_t seconds = days * 86'400 + hour * 3'600 + (minute - zone.minutes) * 60 + second;
+  const std::int64_t minutes = days * 1'440 + std::int64_t{60} * hour + minute - zone.minutes;
+  const std::int64_t seconds = minutes * 60 + second;
   return seconds * 1'000'000'000 + fraction_ns;
 }
 

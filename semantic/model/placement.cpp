@@ -37,15 +37,14 @@ std::optional<Eigen::Isometry3d> findPartInObject(const Articulation& articulati
 }
 
 std::optional<Eigen::Isometry3d> findCarrierInMap(const LargeObject& object, std::string_view parent) {
-  const Eigen::Isometry3d T_map_object = object.T_map_object.toIsometry();
   if (parent == object.id.value) {
-    return T_map_object;
+    return object.T_map_object.toIsometry();
   }
   if (!object.articulation) {
     return std::nullopt;
   }
   const auto T_object_part = findPartInObject(*object.articulation, PartId{std::string(parent)});
-  return T_object_part ? std::optional(T_map_object * *T_object_part) : std::nullopt;
+  return T_object_part ? std::optional(object.T_map_object.toIsometry() * *T_object_part) : std::nullopt;
 }
 
 }  // namespace oikos::semantic

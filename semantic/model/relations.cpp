@@ -8,6 +8,22 @@
 
 namespace oikos::semantic {
 
+namespace {
+
+SpatialRelation toSpatial(Relation relation) {
+  switch (relation) {
+    case Relation::kOn:
+      return SpatialRelation::kOn;
+    case Relation::kIn:
+      return SpatialRelation::kIn;
+    case Relation::kUnder:
+      break;
+  }
+  return SpatialRelation::kUnder;
+}
+
+}  // namespace
+
 std::optional<Relation> findRelation(const Box& carrier, const Eigen::Isometry3d& T_carrier_object, const std::optional<Box>& object_box) {
   const Eigen::Isometry3d T_box_object = carrier.center.toIsometry().inverse() * T_carrier_object;
   const Eigen::Vector3d middle = T_box_object * (object_box ? object_box->center.position_m : Eigen::Vector3d::Zero());
@@ -37,7 +53,7 @@ std::vector<SpatialRelation> spatialRelations(std::span<const Box> carrier, cons
   bool is_near = false;
   for (const Box& box : carrier) {
     if (const auto relation = findRelation(box, T_carrier_object, object_box)) {
-      relations.insert(base::findEnum<SpatialRelation>(base::toString(*relation)).value());
+      relations.insert(toSpatial(*relation));
     }
     is_near = is_near || distanceTo(box, middle) <= kNear_m;
   }

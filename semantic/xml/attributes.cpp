@@ -89,7 +89,7 @@ std::optional<double> Attributes::number(std::string_view name) const {
 std::optional<double> Attributes::length(std::string_view name) const {
   const auto value = number(name);
   if (value && *value < 0.0) {
-    refuse(name, quoted(*find(name)), "at least 0");
+    refuse(name, quoted(text(name)), "at least 0");
   }
   return value;
 }
@@ -97,7 +97,7 @@ std::optional<double> Attributes::length(std::string_view name) const {
 std::optional<double> Attributes::share(std::string_view name) const {
   const auto value = number(name);
   if (value && (*value < 0.0 || *value > 1.0)) {
-    refuse(name, quoted(*find(name)), "from 0 to 1");
+    refuse(name, quoted(text(name)), "from 0 to 1");
   }
   return value;
 }
@@ -135,7 +135,7 @@ std::optional<Eigen::Vector3d> Attributes::vector(std::string_view name) const {
 std::optional<Eigen::Vector3d> Attributes::size(std::string_view name) const {
   const auto lengths = vector(name);
   if (lengths && lengths->minCoeff() < 0.0) {
-    refuse(name, quoted(*find(name)), "no length below 0");
+    refuse(name, quoted(text(name)), "no length below 0");
   }
   return lengths;
 }

@@ -201,7 +201,7 @@ class Splicer {
     std::size_t at = laid.tag_end;
     for (std::size_t i = 0; i < children.size(); ++i) {
       const LaidElement& child = elements_[children[i]];
-      std::string_view gap = bytes_.substr(at, child.begin - at);
+      const std::string_view gap = bytes_.substr(at, child.begin - at);
       at = child.end;
       if (plan.after[i] != nullptr) {
         out += gap;
@@ -305,6 +305,7 @@ class Splicer {
       }
     }
     std::vector<std::size_t> rank_of_child;
+    rank_of_child.reserve(children.size());
     for (const std::uint32_t child : children) {
       rank_of_child.push_back(static_cast<std::size_t>(std::find(names.begin(), names.end(), listOf(tagName(tag(child)))) - names.begin()));
     }
