@@ -59,5 +59,6 @@ void addCheckCommand(CLI::App& root);
 void addEvaluateCommand(CLI::App& root);
 void addInspectCommand(CLI::App& root);
 void addMapCommand(CLI::App& root);
+void addServeCommand(CLI::App& root);
 
 }  // namespace oikos::tools

@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
   oikos::tools::addInspectCommand(program.root());
   oikos::tools::addAskCommand(program.root());
   oikos::tools::addCheckCommand(program.root());
+  oikos::tools::addServeCommand(program.root());
   oikos::tools::addEvaluateCommand(program.root());
   return static_cast<int>(program.run(argc, argv));
 }
