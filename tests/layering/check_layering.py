@@ -19,7 +19,7 @@ ALLOWED = {
     "navigation": {"core", "semantic", "mapping"},
     "tools": {"core", "registration", "semantic", "mapping", "recognition", "tracking", "navigation"},
 }
-EVERYTHING = {"tests", "bench"}  # may include all of the above and themselves
+EVERYTHING = {"tests", "bench", "fuzz"}  # may include all of the above and themselves
 TOP_FOLDERS = set(ALLOWED) | EVERYTHING
 SOURCE_SUFFIXES = {".h", ".cpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')
