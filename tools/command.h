@@ -57,8 +57,10 @@ void setAction(CLI::App& command, Action action);
 void addAskCommand(CLI::App& root);
 void addCheckCommand(CLI::App& root);
 void addEvaluateCommand(CLI::App& root);
+void addForgetCommand(CLI::App& root);
 void addInspectCommand(CLI::App& root);
 void addMapCommand(CLI::App& root);
+void addRevertCommand(CLI::App& root);
 void addServeCommand(CLI::App& root);
 
 }  // namespace oikos::tools

@@ -9,6 +9,8 @@ int main(int argc, char** argv) {
   oikos::tools::addAskCommand(program.root());
   oikos::tools::addCheckCommand(program.root());
   oikos::tools::addServeCommand(program.root());
+  oikos::tools::addRevertCommand(program.root());
+  oikos::tools::addForgetCommand(program.root());
   oikos::tools::addEvaluateCommand(program.root());
   return static_cast<int>(program.run(argc, argv));
 }

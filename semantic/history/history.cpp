@@ -29,6 +29,7 @@ constexpr const char* kSchema =
     "CREATE INDEX event_of_time ON event(time_ns, number);"
     "CREATE INDEX event_of_recording ON event(recording, time_ns) WHERE recording IS NOT NULL;"
     "CREATE INDEX taken_back ON event(recording, number) WHERE kind = 'reverted';"
+    "CREATE INDEX evidence_forgotten ON event(evidence, number) WHERE kind = 'forgotten';"
     "CREATE TRIGGER no_update BEFORE UPDATE ON event BEGIN SELECT RAISE(ABORT, 'a history is never changed'); END;"
     "CREATE TRIGGER no_delete BEFORE DELETE ON event BEGIN SELECT RAISE(ABORT, 'a history is never changed'); END;"
     "CREATE TABLE checkpoint(id INTEGER PRIMARY KEY, as_of INTEGER NOT NULL, size INTEGER NOT NULL, home_xml_deflated BLOB NOT NULL);";
@@ -49,7 +50,9 @@ std::string select(std::string_view what, std::initializer_list<std::string_view
 }
 
 constexpr std::string_view kWhole =
-    "e.number, e.time_ns, e.recording, e.frame, e.subject, e.kind, e.before, e.after, e.confidence, e.evidence";
+    "e.number, e.time_ns, e.recording, e.frame, e.subject, e.kind, e.before, e.after, e.confidence,"
+    " CASE WHEN e.kind = 'forgotten' OR NOT EXISTS"
+    " (SELECT 1 FROM event f WHERE f.kind = 'forgotten' AND f.evidence = e.evidence AND f.number > e.number) THEN e.evidence END";
 
 std::string deflated(const std::string& content) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(libdeflate_alloc_compressor(kCompression),
@@ -105,6 +108,21 @@ void bindState(SqliteStatement& statement, int place, const std::optional<State>
   state ? statement.bind(place, std::string_view(toJson(*state).dump())) : statement.bindNull(place);
 }
 
+/// The values of a column in their order: `next` finds the first above its parameter. One look into the index a value, however many rows
+/// have it.
+std::vector<std::string> eachOnce(SqliteStatement& next) {
+  std::vector<std::string> values;
+  for (std::string last;;) {
+    const SqliteUse use(next);
+    use->bind(1, std::string_view(last));
+    if (!use->step()) {
+      return values;
+    }
+    last = use->text(0);
+    values.push_back(last);
+  }
+}
+
 void checkFormat(SqliteDatabase& database) {
   const std::int64_t id = database.pragma("application_id");
   const std::int64_t version = database.pragma("user_version");
@@ -152,7 +170,12 @@ class History::Database {
                       select(kWhole, {"e.subject = ?", "e.time_ns > ?", kSaysState, kCounts}, "ORDER BY e.time_ns, e.number LIMIT 1")),
           sighting_at(database, select(kWhole, {"e.subject = ?", "e.time_ns <= ?", "e.kind = 'sighted'", kSaysState, kCounts},
                                        "ORDER BY e.time_ns DESC, e.number DESC LIMIT 1")),
+          of_recording(database, select(kWhole, {"e.recording = ?", "e.kind != 'reverted'", kCounts}, "ORDER BY e.number")),
+          state_without(database, select(kWhole, {"e.subject = ?", "e.recording IS NOT ?", "e.kind != 'reverted'", kSaysState, kCounts},
+                                         "ORDER BY e.time_ns DESC, e.number DESC LIMIT 1")),
+          first_state(database, select(kWhole, {"e.subject = ?", kSaysState}, "ORDER BY e.number LIMIT 1")),
           next_subject(database, select("e.subject", {"e.subject > ?", kSaysState}, "ORDER BY e.subject LIMIT 1")),
+          next_recording(database, select("e.recording", {"e.recording > ?"}, "ORDER BY e.recording LIMIT 1")),
           last_recording(database, select("e.recording", {"e.recording IS NOT NULL", "e.kind != 'reverted'", kCounts},
                                           "ORDER BY e.time_ns DESC, e.number DESC LIMIT 1")),
           span_of_recording(database, select("min(e.time_ns), max(e.time_ns)", {"e.recording = ?", "e.kind != 'reverted'", kCounts}, "")),
@@ -165,7 +188,11 @@ class History::Database {
     SqliteStatement state_at;
     SqliteStatement state_after;
     SqliteStatement sighting_at;
+    SqliteStatement of_recording;
+    SqliteStatement state_without;
+    SqliteStatement first_state;
     SqliteStatement next_subject;
+    SqliteStatement next_recording;
     SqliteStatement last_recording;
     SqliteStatement span_of_recording;
     SqliteStatement checkpoints;
@@ -358,21 +385,43 @@ std::optional<Event> History::findSightingAt(std::string_view subject, std::int6
       std::optional<Event>());
 }
 
-std::vector<std::string> History::subjects() const {
+std::vector<Event> History::eventsOfRecording(std::string_view recording) const {
   return database_->withReads(
-      [](Database::Reads& reads) {
-        std::vector<std::string> subjects;
-        for (std::string last;;) {  // one look into the index a subject, however many events it has
-          const SqliteUse use(reads.next_subject);
-          use->bind(1, std::string_view(last));
-          if (!use->step()) {
-            return subjects;
-          }
-          last = use->text(0);
-          subjects.push_back(last);
-        }
+      [&](Database::Reads& reads) {
+        const SqliteUse use(reads.of_recording);
+        use->bind(1, recording);
+        return database_->allOf(*use);
       },
-      std::vector<std::string>());
+      std::vector<Event>());
+}
+
+std::optional<Event> History::findStateWithout(std::string_view subject, std::string_view recording) const {
+  return database_->withReads(
+      [&](Database::Reads& reads) {
+        const SqliteUse use(reads.state_without);
+        use->bind(1, subject);
+        use->bind(2, recording);
+        return database_->oneOf(*use);
+      },
+      std::optional<Event>());
+}
+
+std::optional<Event> History::findFirstState(std::string_view subject) const {
+  return database_->withReads(
+      [&](Database::Reads& reads) {
+        const SqliteUse use(reads.first_state);
+        use->bind(1, subject);
+        return database_->oneOf(*use);
+      },
+      std::optional<Event>());
+}
+
+std::vector<std::string> History::subjects() const {
+  return database_->withReads([](Database::Reads& reads) { return eachOnce(reads.next_subject); }, std::vector<std::string>());
+}
+
+std::vector<std::string> History::recordings() const {
+  return database_->withReads([](Database::Reads& reads) { return eachOnce(reads.next_recording); }, std::vector<std::string>());
 }
 
 std::optional<History::RecordingSpan> History::findLastRecording() const {

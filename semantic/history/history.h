@@ -19,7 +19,8 @@ namespace oikos::semantic {
 enum class HistoryAccess { kRead, kAppend };
 
 /// One open log. All methods are thread-safe; all throw Error{kIo} if the file cannot be read or written. A recording is taken back by an
-/// event `reverted` that names it: what it had said before no longer counts, except in the order of commits.
+/// event `reverted` that names it: what it had said before no longer counts, except in the order of commits. Evidence that an event
+/// `forgotten` names is left out of every event before it.
 class History {
  public:
   /// kAppend creates the file if it is missing; kRead takes a missing one as empty. Throws Error{kInput} for a file that is no history or
@@ -55,8 +56,16 @@ class History {
   [[nodiscard]] std::optional<Event> findStateAfter(std::string_view subject, std::int64_t time_ns) const;
   /// The newest sighting by `time_ns`.
   [[nodiscard]] std::optional<Event> findSightingAt(std::string_view subject, std::int64_t time_ns) const;
+  /// In the order of commits. Without what was taken back, and without the taking back.
+  [[nodiscard]] std::vector<Event> eventsOfRecording(std::string_view recording) const;
+  /// The newest observation that says something about the subject's state, as if the recording and all taking back had never been.
+  [[nodiscard]] std::optional<Event> findStateWithout(std::string_view subject, std::string_view recording) const;
+  /// The first that was ever committed of the subject's state, also if it was taken back: its `before` is what was there at the start.
+  [[nodiscard]] std::optional<Event> findFirstState(std::string_view subject) const;
   /// Every subject that a state was ever said of, in alphabetical order.
   [[nodiscard]] std::vector<std::string> subjects() const;
+  /// Every recording that ever said something, in alphabetical order; also those that were taken back.
+  [[nodiscard]] std::vector<std::string> recordings() const;
   /// The recording with the latest event, and the times of its first and last event; nothing: no recording yet.
   struct RecordingSpan {
     std::string recording;

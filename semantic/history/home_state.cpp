@@ -38,6 +38,11 @@ void checkJoint(const Event& event, const Joint& joint) {
   }
 }
 
+/// What held before an event, as far as it still counts: what a taken back recording had said is none of it.
+const std::optional<State>& stateUntil(const Event& event) {
+  return event.kind == EventKind::kReverted ? event.after : event.before;
+}
+
 }  // namespace
 
 HomeState::HomeState(Home home) : home_(std::move(home)) {
@@ -280,8 +285,8 @@ Home homeAt(const Home& current, const History& history, std::int64_t time_ns) {
   for (const std::string& subject : history.subjects()) {
     if (const auto by_then = history.findStateAt(subject, time_ns)) {
       state.set(subject, *by_then->after);
-    } else if (const auto later = history.findStateAfter(subject, time_ns); later && later->before) {
-      state.set(subject, *later->before);
+    } else if (const auto later = history.findStateAfter(subject, time_ns); later && stateUntil(*later)) {
+      state.set(subject, *stateUntil(*later));
     }
     if (history.findSightingAt(subject, kAnyTime)) {
       state.setSeen(subject, history.findSightingAt(subject, time_ns));
