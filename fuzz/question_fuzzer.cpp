@@ -14,8 +14,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace oikos;
   static const semantic::HomeReading kReading = semantic::readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml");
   static const semantic::HomeIndex kIndex(kReading.home);
+  constexpr std::int64_t kNow_ns = 1'773'338'400'000'000'000;  // 2026-03-12T18:00:00Z
   const std::string_view question(reinterpret_cast<const char*>(data), size);
-  const auto json = nlohmann::json::parse(semantic::toJson(semantic::answerQuestion(kIndex, question)));
+  const auto json = nlohmann::json::parse(semantic::toJson(semantic::answerQuestion({&kIndex, nullptr, kNow_ns, std::nullopt}, question)));
   OIKOS_CHECK(json.contains("status") && !json["sentence"].get<std::string>().empty());
   return 0;
 }

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/base/rfc3339.h"
+#include "semantic/history/history.h"
+#include "semantic/history/home_state.h"
 #include "semantic/query/answer.h"
-#include "semantic/xml/home_reader.h"
 #include "tools/command.h"
 
 namespace oikos::tools {
@@ -22,28 +31,57 @@ constexpr const char* kExamples =
     "  oikos ask homes/papers \"which doors are closed\"\n"
     "  oikos ask homes/papers \"how many cups are in the kitchen\"\n"
     "  oikos ask homes/papers \"what is the thermostat set to\"\n"
+    "  oikos ask HOME \"where was the blue cup on Monday at 8:00\" --now 2026-03-12T18:00:00Z\n"
+    "  oikos ask HOME \"what changed since yesterday\"\n"
+    "  oikos ask homes/papers \"bring me the red cup\" --at 0,0,90\n"
     "Exits with 1 if there is no answer.";
 
 struct AskOptions {
   std::filesystem::path home;
   std::string question;
+  std::string now;
+  std::string at;
 };
 
-semantic::Home loadHome(const std::filesystem::path& folder) {
-  semantic::HomeReading reading = semantic::readHome(folder / "home.xml");
-  for (const semantic::Finding& finding : reading.findings) {
-    if (finding.severity == semantic::Severity::kError) {
-      throw base::Error(base::ErrorCode::kInput,
-                        finding.element + ": " + finding.found + " (oikos check " + folder.string() + " lists everything)",
-                        (folder / "home.xml").string() + ":" + std::to_string(finding.line));
+std::int64_t nowOf(const std::string& text) {
+  if (text.empty()) {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+  }
+  const auto now_ns = base::parseRfc3339Ns(text);
+  if (!now_ns) {
+    throw base::Error(base::ErrorCode::kUsage, "'" + text + "' is no time such as 2026-03-12T18:00:00Z", "--now");
+  }
+  return *now_ns;
+}
+
+std::optional<semantic::RobotPlace> robotOf(const std::string& text) {
+  if (text.empty()) {
+    return std::nullopt;
+  }
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto number = base::findNumber(part);
+    if (number && std::isfinite(*number)) {
+      numbers.push_back(*number);
     }
   }
-  return std::move(reading.home);
+  if (numbers.size() != 3 || std::count(text.begin(), text.end(), ',') != 2) {
+    throw base::Error(base::ErrorCode::kUsage, "'" + text + "' is no place such as 1.5,-2,90 (m, m, degrees)", "--at");
+  }
+  return semantic::RobotPlace{{numbers[0], numbers[1]}, numbers[2] * semantic::kRadPerDeg};
 }
 
 ExitCode ask(const AskOptions& options, const Session& session) {
-  const semantic::Home home = loadHome(options.home);
-  const semantic::Answer answer = semantic::answerQuestion(semantic::HomeIndex(home), options.question);
+  const std::int64_t now_ns = nowOf(options.now);
+  const auto robot = robotOf(options.at);
+  const semantic::HomeIndex index(semantic::loadHome(options.home));
+  const std::filesystem::path file = options.home / "history.sqlite";
+  std::optional<semantic::History> history;
+  if (std::filesystem::exists(file)) {
+    history.emplace(file, semantic::HistoryAccess::kRead);
+  }
+  const semantic::Answer answer = semantic::answerQuestion({&index, history ? &*history : nullptr, now_ns, robot}, options.question);
   if (session.options.json) {
     std::cout << semantic::toJson(answer) << '\n';
   } else {
@@ -62,6 +100,8 @@ void addAskCommand(CLI::App& root) {
   const auto options = std::make_shared<AskOptions>();
   command.add_option("HOME", options->home, "the home's folder")->required();
   command.add_option("QUESTION", options->question, "in English, in quotes")->required();
+  command.add_option("--now", options->now, "what the question takes for the present: 2026-03-12T18:00:00Z");
+  command.add_option("--at", options->at, "where the robot is: X,Y,YAW (m, degrees); orders parking poses and what is nearest");
   setAction(command, [options](const Session& session) { return ask(*options, session); });
 }
 

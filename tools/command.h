@@ -62,5 +62,6 @@ void addInspectCommand(CLI::App& root);
 void addMapCommand(CLI::App& root);
 void addRevertCommand(CLI::App& root);
 void addServeCommand(CLI::App& root);
+void addTellCommand(CLI::App& root);
 
 }  // namespace oikos::tools

@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
   oikos::tools::addMapCommand(program.root());
   oikos::tools::addInspectCommand(program.root());
   oikos::tools::addAskCommand(program.root());
+  oikos::tools::addTellCommand(program.root());
   oikos::tools::addCheckCommand(program.root());
   oikos::tools::addServeCommand(program.root());
   oikos::tools::addRevertCommand(program.root());

@@ -8,14 +8,48 @@ namespace oikos::semantic {
 
 namespace {
 
-constexpr std::size_t kMaxWords = 64;
-
 bool isWordCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80;
 }
 
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+/// The length of the apostrophe there; 0: none.
+std::size_t apostropheAt(std::string_view sentence, std::size_t i) {
+  constexpr std::string_view typographic = "\xE2\x80\x99";
+  if (sentence.substr(i, typographic.size()) == typographic) {
+    return typographic.size();
+  }
+  return i < sentence.size() && sentence[i] == '\'' ? 1 : 0;
+}
+
+bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// The colon of a time or the dash of a date, in a word of digits that began at `start`.
+bool joinsDigits(std::string_view sentence, std::size_t start, std::size_t i) {
+  return (sentence[i] == ':' || sentence[i] == '-') && i > start && i + 1 < sentence.size() && isDigit(sentence[start]) &&
+         isDigit(sentence[i - 1]) && isDigit(sentence[i + 1]);
+}
+
+/// `ending` is what follows the apostrophe.
+void addWithApostrophe(std::vector<std::string>& words, std::string word, std::string_view ending) {
+  constexpr std::array<std::string_view, 10> before_is{"what", "where", "there", "that", "it", "who", "how", "here", "when", "which"};
+  std::string after(ending);
+  std::transform(after.begin(), after.end(), after.begin(), lower);
+  const bool is_verb = std::find(before_is.begin(), before_is.end(), word) != before_is.end();
+  if (after == "s" || after.empty()) {
+    const bool owner = after == "s" || word.ends_with('s');
+    words.push_back(std::move(word));
+    if (owner) {
+      words.emplace_back(is_verb ? "is" : "'s");
+    }
+  } else {
+    words.push_back(word + after);
+  }
 }
 
 void replaceEnding(std::string& word, std::size_t length, std::string_view ending) {
@@ -26,25 +60,29 @@ void replaceEnding(std::string& word, std::size_t length, std::string_view endin
 
 std::vector<std::string> wordsOf(std::string_view sentence) {
   std::vector<std::string> words;
-  std::string word;
-  const auto finish = [&] {
-    if (word == "s" && !words.empty() && (words.back() == "what" || words.back() == "where" || words.back() == "there")) {
-      word = "is";
+  for (std::size_t i = 0; i < sentence.size() && words.size() <= kMostWords;) {
+    const std::size_t start = i;
+    while (i < sentence.size() && (isWordCharacter(lower(sentence[i])) || joinsDigits(sentence, start, i))) {
+      ++i;
     }
-    if (!word.empty() && word != "s" && words.size() < kMaxWords) {
-      words.push_back(word);
+    if (i == start) {
+      i += std::max<std::size_t>(apostropheAt(sentence, i), 1);
+      continue;
     }
-    word.clear();
-  };
-  for (const char c : sentence) {
-    const char small = lower(c);
-    if (isWordCharacter(small)) {
-      word += small;
+    std::string word(sentence.substr(start, i - start));
+    std::transform(word.begin(), word.end(), word.begin(), lower);
+    if (const std::size_t length = apostropheAt(sentence, i); length > 0) {
+      i += length;
+      std::size_t end = i;
+      while (end < sentence.size() && isWordCharacter(lower(sentence[end]))) {
+        ++end;
+      }
+      addWithApostrophe(words, std::move(word), sentence.substr(i, end - i));
+      i = end;
     } else {
-      finish();
+      words.push_back(std::move(word));
     }
   }
-  finish();
   return words;
 }
 
@@ -68,8 +106,9 @@ std::string singularOf(const std::string& word) {
 }
 
 bool isFiller(std::string_view word) {
-  constexpr std::array<std::string_view, 14> fillers{"the", "a",    "an",  "my",     "our", "your", "his",
-                                                     "her", "some", "any", "please", "of",  "that", "those"};
+  constexpr std::array<std::string_view, 28> fillers{
+      "the",  "a",     "an",    "my",    "our",  "your",  "his",    "her",   "their", "some",  "any",  "please", "of", "that",
+      "this", "those", "these", "still", "just", "again", "really", "maybe", "else",  "there", "ever", "other",  "'s", "both"};
   return std::find(fillers.begin(), fillers.end(), word) != fillers.end();
 }
 

@@ -65,5 +65,26 @@ TEST(Ask, NoAnswerExitsWith1AndABrokenHomeWith3) {
   EXPECT_NE(result.err.find("oikos check"), std::string::npos) << result.err;
 }
 
+TEST(Ask, WhereTheRobotIsOrdersItsParkingPoses) {
+  const ProcessResult result = runOikos({"ask", kPapersHouse, "where is the blue cup?", "--at", "1.8,1.5,-90", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_DOUBLE_EQ(json["found"][0]["parking_poses_map"][0]["y_m"], 1.0);
+  EXPECT_EQ(runOikos({"ask", kPapersHouse, "where is the blue cup?", "--at", "1.8,1.5"}).exit_code, 2);
+  EXPECT_EQ(runOikos({"ask", kPapersHouse, "where is the blue cup?", "--now", "today"}).exit_code, 2);
+}
+
+TEST(Tell, WhatAPersonSaysCounts) {
+  const TemporaryFolder home;
+  (void)home.write("home.xml", base::readFile(std::filesystem::path(kPapersHouse) / "home.xml"));
+  const ProcessResult told = runOikos({"tell", home.path().string(), "the blue cup is in the bathroom"});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_EQ(told.out, "Noted: the blue cup is in the bathroom.\n");
+  EXPECT_NE(runOikos({"ask", home.path().string(), "where is the blue cup"}).out.find("in the bathroom"), std::string::npos);
+  const ProcessResult before = runOikos({"ask", home.path().string(), "where was the blue cup an hour ago"});
+  EXPECT_NE(before.out.find("was on the kitchen table"), std::string::npos) << before.out << before.err;
+  EXPECT_EQ(runOikos({"tell", home.path().string(), "the cup is in the bathroom"}).exit_code, 1);
+}
+
 }  // namespace
 }  // namespace oikos::test

@@ -57,7 +57,10 @@ ObjectFilter filterOf(const RequestTarget& target) {
 std::vector<std::uint32_t> candidates(const semantic::HomeIndex& index, const ObjectFilter& filter) {
   std::vector<std::uint32_t> numbers;
   if (filter.text) {
-    return index.find(semantic::wordsOf(*filter.text)).things;
+    for (const semantic::Match& match : index.find(semantic::wordsOf(*filter.text)).matches) {
+      numbers.push_back(match.thing);
+    }
+    return numbers;
   }
   numbers.resize(index.size());
   for (std::uint32_t number = 0; number < numbers.size(); ++number) {

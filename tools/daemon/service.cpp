@@ -114,14 +114,16 @@ void Service::tell(std::int64_t last_event) {
 
 void Service::index(const std::shared_ptr<const semantic::HomeSnapshot>& snapshot) {
   const std::lock_guard one_at_a_time(index_mutex_);
+  std::shared_ptr<const HomeView> earlier;
   {
     const std::lock_guard lock(view_mutex_);
+    earlier = view_;
     if (view_ && view_->snapshot->home.as_of >= snapshot->home.as_of && view_->snapshot->structure >= snapshot->structure) {
       return;
     }
   }
   const Clock::time_point start = Clock::now();
-  auto view = std::make_shared<const HomeView>(snapshot);
+  auto view = earlier ? std::make_shared<const HomeView>(snapshot, *earlier) : std::make_shared<const HomeView>(snapshot);
   index_took_ns_ = std::chrono::nanoseconds(Clock::now() - start).count();
   ++index_builds_;
   const std::lock_guard lock(view_mutex_);

@@ -20,10 +20,20 @@ namespace oikos::daemon {
 
 /// A home at one moment, with the index to find things in it. Immutable.
 struct HomeView {
-  explicit HomeView(std::shared_ptr<const semantic::HomeSnapshot> home) : snapshot(std::move(home)), index(snapshot->home) {}
+  explicit HomeView(std::shared_ptr<const semantic::HomeSnapshot> home) : snapshot(std::move(home)), index(homeOf(snapshot)) {}
+  /// Where nothing but states has changed since `earlier`: with its words, which is much faster.
+  HomeView(std::shared_ptr<const semantic::HomeSnapshot> home, const HomeView& earlier)
+      : snapshot(std::move(home)),
+        index(snapshot->structure == earlier.snapshot->structure ? semantic::HomeIndex(earlier.index, homeOf(snapshot))
+                                                                 : semantic::HomeIndex(homeOf(snapshot))) {}
 
   std::shared_ptr<const semantic::HomeSnapshot> snapshot;
   semantic::HomeIndex index;
+
+ private:
+  static std::shared_ptr<const semantic::Home> homeOf(const std::shared_ptr<const semantic::HomeSnapshot>& snapshot) {
+    return {snapshot, &snapshot->home};
+  }
 };
 
 struct ServiceConfig {

@@ -13,6 +13,8 @@
 namespace oikos::semantic {
 namespace {
 
+constexpr std::int64_t kNow_ns = 1'773'338'400'000'000'000;  // 2026-03-12T18:00:00Z
+
 Home papersHouse() {
   return readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml").home;
 }
@@ -36,6 +38,11 @@ Home laterHouse() {
   return home;
 }
 
+Answer ask(const Home& home, const std::string& question) {
+  const HomeIndex index(home);
+  return answerQuestion({&index, nullptr, kNow_ns, std::nullopt}, question);
+}
+
 struct Row {
   const char* question;
   AnswerStatus status;
@@ -46,7 +53,7 @@ struct Row {
 void expectAnswers(const Home& home, const std::vector<Row>& rows) {
   const HomeIndex index(home);
   for (const Row& row : rows) {
-    const Answer answer = answerQuestion(index, row.question);
+    const Answer answer = answerQuestion({&index, nullptr, kNow_ns, std::nullopt}, row.question);
     std::vector<std::string> ids;
     for (const FoundThing& found : answer.found) {
       ids.push_back(found.id);
@@ -63,38 +70,39 @@ constexpr AnswerStatus kUnknown = AnswerStatus::kUnknownWord;
 constexpr AnswerStatus kNotUnderstood = AnswerStatus::kNotUnderstood;
 
 TEST(Answer, AboutThePapersHouse) {
-  expectAnswers(
-      papersHouse(),
-      {{"where is the blue cup?", kAnswered, {"blue-cup"}, "The blue cup is on the kitchen table in the kitchen."},
-       {"Where's the sugar", kAnswered, {"sugar"}, "The sugar container is on the kitchen table"},
-       {"where are the cups", kAnswered, {"red-cup", "blue-cup"}, "2 things fit"},
-       {"can you tell me where the red cup is?", kAnswered, {"red-cup"}, "on the kitchen table"},
-       {"where can I find a bowl", kAnswered, {"bowl"}, "white bowl"},
-       {"find the mug on the table", kAnswered, {"red-cup", "blue-cup"}, ""},
-       {"where is the refrigerator", kAnswered, {"fridge"}, "The fridge is in the kitchen."},
-       {"where is the left door", kAnswered, {"cupboard-left"}, "left door of the cupboard"},
-       {"where is the green cup", kNothing, {}, "I know of no green cup."},
-       {"where is the cup in the bathroom", kNothing, {}, "in the bathroom"},
-       {"where is the ukulele", kUnknown, {}, "ukulele"},
-       {"what is on the table", kAnswered, {"red-cup", "bowl", "sugar", "blue-cup"}, "are on the table"},
-       {"which cups are on the table", kAnswered, {"red-cup", "blue-cup"}, ""},
-       {"what is under the table", kNothing, {}, "nothing under the table"},
-       {"what is in the kitchen", kAnswered, {"table", "red-cup", "bowl", "sugar", "blue-cup", "cupboard", "fridge"}, "and 2 more"},
-       {"how many cups are there in the kitchen", kAnswered, {"red-cup", "blue-cup"}, "2: "},
-       {"how many cups are in the bathroom", kAnswered, {}, "None."},
-       {"is there a bowl in the bathroom", kAnswered, {}, "Not that I know."},
-       {"is the blue cup on the table", kAnswered, {"blue-cup"}, "Yes"},
-       {"is the fridge open", kAnswered, {"fridge"}, "The fridge is closed."},
-       {"is the table open", kNothing, {}, "no way to open the table"},
-       {"which doors are open", kAnswered, {}, "None."},
-       {"which doors are closed", kAnswered, {"cupboard-left", "cupboard-right", "fridge-door"}, "closed"},
-       {"what is the thermostat set to", kAnswered, {"fridge-thermostat"}, "is set to 3"},
-       {"what is the fridge set to", kAnswered, {"fridge-thermostat"}, "is set to 3"},
-       {"what is the table set to", kNothing, {}, "nothing that could be set"},
-       {"where was the cup yesterday", kUnknown, {}, "yesterday"},
-       {"dance for me", kNotUnderstood, {}, "'dance'"},
-       {"where", kNotUnderstood, {}, ""},
-       {"", kNotUnderstood, {}, ""}});
+  expectAnswers(papersHouse(), {{"where is the blue cup?", kAnswered, {"blue-cup"}, "The blue cup is on the kitchen table in the kitchen."},
+                                {"Where's the sugar", kAnswered, {"sugar"}, "The sugar container is on the kitchen table"},
+                                {"where are the cups", kAnswered, {"red-cup", "blue-cup"}, "2 things fit"},
+                                {"can you tell me where the red cup is?", kAnswered, {"red-cup"}, "on the kitchen table"},
+                                {"where can I find a bowl", kAnswered, {"bowl"}, "white bowl"},
+                                {"find the mug on the table", kAnswered, {"red-cup", "blue-cup"}, ""},
+                                {"where is the refrigerator", kAnswered, {"fridge"}, "The fridge is in the kitchen."},
+                                {"where is the left door", kAnswered, {"cupboard-left"}, "left door of the cupboard"},
+                                {"where is the green cup", kNothing, {}, "I know of no green cup."},
+                                {"where is the cup in the bathroom", kNothing, {}, "in the bathroom"},
+                                {"where is the ukulele", kUnknown, {}, "ukulele"},
+                                {"what is on the table", kAnswered, {"red-cup", "bowl", "sugar", "blue-cup"}, "are on the table"},
+                                {"which cups are on the table", kAnswered, {"red-cup", "blue-cup"}, ""},
+                                {"what is under the table", kNothing, {}, "nothing under the table"},
+                                {"what is in the kitchen",
+                                 kAnswered,
+                                 {"table", "red-cup", "bowl", "sugar", "blue-cup", "cupboard", "fridge"},
+                                 "and the fridge are in the kitchen"},
+                                {"how many cups are there in the kitchen", kAnswered, {"red-cup", "blue-cup"}, "2: "},
+                                {"how many cups are in the bathroom", kAnswered, {}, "None in the bathroom."},
+                                {"is there a bowl in the bathroom", kAnswered, {}, "Not that I know: the white bowl on"},
+                                {"is the blue cup on the table", kAnswered, {"blue-cup"}, "Yes"},
+                                {"is the fridge open", kAnswered, {"fridge"}, "No: the fridge is closed."},
+                                {"is the table open", kNothing, {}, "no way to open the table"},
+                                {"which doors are open", kAnswered, {}, "None."},
+                                {"which doors are closed", kAnswered, {"cupboard-left", "cupboard-right", "fridge-door"}, "closed"},
+                                {"what is the thermostat set to", kAnswered, {"fridge-thermostat"}, "is set to 3"},
+                                {"what is the fridge set to", kAnswered, {"fridge-thermostat"}, "is set to 3"},
+                                {"what is the table set to", kNothing, {}, "nothing that could be set"},
+                                {"where was the cup yesterday", kNothing, {}, "no history"},
+                                {"dance for me", kNotUnderstood, {}, "'dance'"},
+                                {"where", kNotUnderstood, {}, ""},
+                                {"", kNotUnderstood, {}, ""}});
 }
 
 TEST(Answer, AboutTheHouseLater) {
@@ -109,8 +117,7 @@ TEST(Answer, AboutTheHouseLater) {
 
 TEST(Answer, SaysWhereToStandAndWhatToOpenFirst) {
   const Home home = laterHouse();
-  const HomeIndex index(home);
-  const Answer answer = answerQuestion(index, "where is the blue cup");
+  const Answer answer = ask(home, "where is the blue cup");
   ASSERT_EQ(answer.found.size(), 1U);
   const FoundThing& cup = answer.found[0];
   EXPECT_EQ(cup.parent, "cupboard-body");
@@ -128,8 +135,7 @@ TEST(Answer, TheDefaultParkingPoseIsTriedFirst) {
   Home home = papersHouse();
   auto& parking = home.rooms[0].objects[0].edit().parking_poses;
   std::swap(parking[0], parking[2]);
-  const HomeIndex index(home);
-  const Answer answer = answerQuestion(index, "where is the table");
+  const Answer answer = ask(home, "where is the table");
   ASSERT_EQ(answer.found[0].T_map_base.size(), 3U);
   EXPECT_NEAR(answer.found[0].T_map_base[0].translation().x(), 0.7, 1e-12);
 }
@@ -143,33 +149,32 @@ TEST(Answer, TwentyOfManyAndTheNumberOfAll) {
     spoon.type = "spoon";
     on_table.push_back(spoon);
   }
-  const HomeIndex index(home);
-  const Answer answer = answerQuestion(index, "where are the spoons");
+  const Answer answer = ask(home, "where are the spoons");
   EXPECT_EQ(answer.found.size(), 20U);
   EXPECT_EQ(answer.total, 40U);
-  EXPECT_NE(answer.sentence.find("35 more"), std::string::npos) << answer.sentence;
+  EXPECT_NE(answer.sentence.find("32 more"), std::string::npos) << answer.sentence;
 }
 
 TEST(Answer, AsJson) {
   const Home home = papersHouse();
-  const HomeIndex index(home);
-  const auto json = nlohmann::json::parse(toJson(answerQuestion(index, "where is the blue cup")));
+  const auto json = nlohmann::json::parse(toJson(ask(home, "where is the blue cup")));
   EXPECT_EQ(json["status"], "answered");
   EXPECT_EQ(json["total"], 1);
   EXPECT_EQ(json["found"][0]["id"], "blue-cup");
   EXPECT_DOUBLE_EQ(json["found"][0]["pose_map"]["x_m"], 2.1);
   EXPECT_DOUBLE_EQ(json["found"][0]["pose_map"]["yaw_deg"], 30.0);
   EXPECT_EQ(json["found"][0]["parking_poses_map"].size(), 3U);
-  EXPECT_TRUE(json["found"][0]["last_seen_ns"].is_null());
-  EXPECT_TRUE(nlohmann::json::accept(toJson(answerQuestion(index, "where is \xFF\xFE"))));
+  EXPECT_TRUE(json["found"][0]["last_seen"].is_null());
+  EXPECT_TRUE(nlohmann::json::accept(toJson(ask(home, "where is \xFF\xFE"))));
 }
 
 TEST(Answer, NoTextThrows) {
   const Home home = papersHouse();
   const HomeIndex index(home);
-  const std::vector<std::string> words{"where", "what",   "which", "is",   "are", "how", "many", "far",
-                                       "open",  "closed", "set",   "to",   "on",  "in",  "the",  "cup",
-                                       "table", "fridge", "there", "find", "s",   "",    "\xFF", "kitchen"};
+  const std::vector<std::string> words{"where", "what", "which", "is",      "are",   "how",    "many",   "far",    "open",    "closed",
+                                       "set",   "to",   "on",    "in",      "the",   "cup",    "table",  "fridge", "there",   "find",
+                                       "s",     "",     "\xFF",  "kitchen", "bring", "second", "drawer", "of",     "nearest", "yesterday",
+                                       "at",    "8",    "when",  "changed", "left",  "that",   "and",    "last",   "seen",    "do"};
   std::uint32_t state = 7;
   for (int i = 0; i < 20000; ++i) {
     std::string question;
@@ -177,8 +182,37 @@ TEST(Answer, NoTextThrows) {
       state = state * 1664525U + 1013904223U;
       question += words[(state >> 16) % words.size()] + " ";
     }
-    EXPECT_NO_THROW((void)answerQuestion(index, question)) << question;
+    EXPECT_NO_THROW((void)answerQuestion({&index, nullptr, kNow_ns, std::nullopt}, question)) << question;
   }
+}
+
+TEST(Answer, HostileTextIsRefusedOrAnswered) {
+  const Home home = papersHouse();
+  std::string many;
+  for (int i = 0; i < 200000; ++i) {
+    many += "cup ";
+  }
+  EXPECT_NE(ask(home, many).sentence.find("too long"), std::string::npos);
+  EXPECT_NE(ask(home, many.substr(0, 300)).sentence.find("64 words"), std::string::npos);
+  std::string nested = "where is";
+  for (int i = 0; i < 20; ++i) {
+    nested += " cup on the";
+  }
+  EXPECT_FALSE(ask(home, nested + " table").sentence.empty());
+  EXPECT_EQ(ask(home, std::string("where is the blue\0cup", 21)).found.size(), 1U);
+  EXPECT_EQ(ask(home, "where is the \xC3\x28 cup").status, kUnknown);
+  EXPECT_EQ(ask(home, "where is the cup in 99999999999999999999 days ago").status, kUnknown);
+}
+
+TEST(Answer, WhatIsNotKnownIsNoCertainNo) {
+  const Home home = papersHouse();
+  for (const char* question :
+       {"is the fridge full", "is the blue cup clean", "is the cup in the bathtub", "is there a freezer in the kitchen",
+        "how many ukuleles are there", "which cups are not on the table", "where is the ball"}) {
+    EXPECT_NE(ask(home, question).status, kAnswered) << question << "\n" << ask(home, question).sentence;
+  }
+  EXPECT_EQ(ask(home, "is anything open").yes, false);
+  EXPECT_EQ(ask(home, "are the doors closed").yes, true);
 }
 
 TEST(Answer, EnumTable) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 
 #include "semantic/xml/home_reader.h"
@@ -36,7 +37,7 @@ Home manyCups(int count, int special) {
 
 std::vector<std::string> idsOf(const HomeIndex& index, const Words& words) {
   std::vector<std::string> ids;
-  for (const std::uint32_t number : index.find(words).things) {
+  for (const std::uint32_t number : index.find(words).best()) {
     ids.push_back(index.thing(number).id());
   }
   return ids;
@@ -64,7 +65,7 @@ TEST_F(PapersIndex, SynonymsPluralsAndProperties) {
 
 TEST_F(PapersIndex, AWordThatFitsNothingIsNotAnUnknownWord) {
   EXPECT_TRUE(index_.find({"green", "cup"}).unknown.empty());
-  EXPECT_TRUE(index_.find({"green", "cup"}).things.empty());
+  EXPECT_TRUE(index_.find({"green", "cup"}).matches.empty());
   EXPECT_EQ(index_.find({"ukulele"}).unknown, (Words{"ukulele"}));
 }
 
@@ -91,7 +92,60 @@ TEST(HomeIndex, FindsTheOneAmongMany) {
   const Home home = manyCups(20000, 777);
   const HomeIndex index(home);
   EXPECT_EQ(idsOf(index, {"blue", "cup"}), (Words{"c777"}));
-  EXPECT_EQ(index.find({"cup"}).things.size(), 20000U);
+  EXPECT_EQ(index.find({"cup"}).matches.size(), 20000U);
+}
+
+TEST_F(PapersIndex, TheTypeRanksBeforeAnotherWordForIt) {
+  Home home = home_;
+  LargeObject desk = home.rooms[0].objects[0];
+  desk.id = {"desk"};
+  desk.label = "desk";
+  desk.small_objects.clear();
+  home.rooms[0].objects.emplace_back(desk);
+  const HomeIndex index(home);
+  EXPECT_EQ(idsOf(index, {"desk"}), (Words{"desk"}));  // the vocabulary has it as a word for any table
+  EXPECT_EQ(index.find({"desk"}).matches.size(), 2U);
+  EXPECT_EQ(idsOf(index_, {"desk"}), (Words{"table"}));
+}
+
+TEST_F(PapersIndex, NamesWithWordsOfTheSentence) {
+  EXPECT_EQ(index_.words().joinNames({"the", "chest", "of", "drawers", "of", "mine"}), (Words{"the", "chest of drawers", "of", "mine"}));
+  EXPECT_EQ(index_.words().nearestWords("fridje"), (Words{"fridge"}));
+}
+
+TEST_F(PapersIndex, TakesOverTheWordsForAHomeInAnotherState) {
+  Home later = home_;
+  std::vector<SmallObject>& on_table = later.rooms[0].objects[0].edit().small_objects;
+  SmallObject cup = on_table[3];
+  on_table.erase(on_table.begin() + 3);
+  cup.parent = "bathroom";
+  later.rooms[1].small_objects.push_back(cup);
+  HomeIndex moved(index_, std::make_shared<const Home>(later));
+  EXPECT_EQ(&moved.words(), &index_.words());
+  ASSERT_EQ(moved.size(), index_.size());
+  for (std::uint32_t i = 0; i < moved.size(); ++i) {
+    EXPECT_EQ(moved.thing(i).id(), index_.thing(i).id());
+  }
+  EXPECT_EQ(moved.findById("blue-cup")->room->id.value, "bathroom");
+  EXPECT_EQ(index_.findById("blue-cup")->room->id.value, "kitchen");
+}
+
+TEST_F(PapersIndex, DoesNotTakeOverTheWordsOfAnotherHome) {
+  Home larger = home_;
+  SmallObject spoon = home_.rooms[0].objects[0]->small_objects[0];
+  spoon.id = {"spoon"};
+  spoon.type = "spoon";
+  larger.rooms[1].small_objects.push_back(spoon);
+  const HomeIndex index(index_, std::make_shared<const Home>(larger));
+  EXPECT_NE(&index.words(), &index_.words());
+  EXPECT_EQ(idsOf(index, {"spoon"}), (Words{"spoon"}));
+}
+
+TEST_F(PapersIndex, KeepsItsHomeAlive) {
+  auto index = std::make_unique<HomeIndex>(std::make_shared<const Home>(home_));
+  const HomeIndex copy(*index);
+  index.reset();
+  EXPECT_EQ(copy.findById("blue-cup")->name(), "blue cup");
 }
 
 }  // namespace

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semantic/query/answer_context.h"
+
+#include <algorithm>
+
+#include "semantic/history/home_state.h"
+#include "semantic/query/sentence.h"
+
+namespace oikos::semantic {
+
+AnswerContext::AnswerContext(const Inquiry& inquiry, const Question& question)
+    : inquiry_(inquiry), question_(question), clock_(inquiry.index->home().time_zone, inquiry.now_ns) {}
+
+bool AnswerContext::goToTime() {
+  if (!question_.time) {
+    return true;
+  }
+  std::optional<TimeSpan> last_recording;
+  if (question_.time->last_recording && history() != nullptr) {
+    if (const auto recording = history()->findLastRecording()) {
+      last_recording = TimeSpan{recording->first_ns, recording->last_ns + 1, false};
+    }
+  }
+  span_ = resolveTime(*question_.time, clock_, last_recording);
+  if (!span_) {
+    nothingFits("I know of no time '" + question_.time->words + "'.");
+    return false;
+  }
+  if (span_->to_come) {
+    nothingFits("'" + capitalised(question_.time->words) + "' is still to come.");
+    return false;
+  }
+  const bool of_events = question_.kind == QuestionKind::kChanges || question_.kind == QuestionKind::kHistory ||
+                         question_.kind == QuestionKind::kLastSeen || question_.kind == QuestionKind::kLastChange;
+  if (of_events || span_->last_ns() >= clock_.now_ns()) {
+    return true;
+  }
+  if (history() == nullptr) {
+    nothingFits("I know of the present only: this home has no history.");
+    return false;
+  }
+  answer.at_ns = span_->last_ns();
+  past_.emplace(present(), std::make_shared<const Home>(homeAt(present().home(), *history(), span_->last_ns())));
+  return true;
+}
+
+Resolution AnswerContext::resolve(const ThingPhrase& phrase) const {
+  return Resolver(index(), present(), robot() ? std::optional(robot()->position_map_m) : std::nullopt).resolve(phrase);
+}
+
+std::optional<Things> AnswerContext::resolveThing() {
+  resolution_ = resolve(question_.thing);
+  answer.corrected = resolution_.corrected;
+  if (!resolution_.known) {
+    sayUnknown();
+    return std::nullopt;
+  }
+  return resolution_.things;
+}
+
+void AnswerContext::sayUnknown() {
+  answer.status = AnswerStatus::kUnknownWord;
+  answer.not_understood = resolution_.unknown;
+  for (const std::string& word : resolution_.unknown) {
+    const std::vector<std::string> near = index().words().nearestWords(word);
+    answer.suggestions.insert(answer.suggestions.end(), near.begin(), near.end());
+  }
+  answer.sentence = "Nothing in this home is called '" + joined(resolution_.unknown, "', '") + "'";
+  answer.sentence += answer.suggestions.empty() ? "." : "; did you mean " + joined(answer.suggestions, " or ") + "?";
+}
+
+FoundThing AnswerContext::found(const Thing& thing) const {
+  FoundThing described = describe(thing, robot());
+  if (history() == nullptr) {
+    return described;
+  }
+  std::string subject = described.id;
+  if (thing.kind == ThingKind::kPart && !described.joints.empty()) {
+    subject = described.joints.front().id;
+  }
+  if (const auto event = history()->findStateAt(subject, moment_ns())) {
+    described.evidence = Evidence{event->number, event->recording, event->frame, event->evidence};
+  }
+  return described;
+}
+
+void AnswerContext::take(const Things& things) {
+  answer.status = AnswerStatus::kAnswered;
+  answer.total = things.size();
+  answer.found.clear();
+  for (std::size_t i = 0; i < std::min(things.size(), kMostFound); ++i) {
+    answer.found.push_back(found(*things[i]));
+  }
+}
+
+void AnswerContext::nothingFits(std::string sentence) {
+  answer.status = AnswerStatus::kNothingFits;
+  if (!sentence.empty()) {
+    answer.sentence = std::move(sentence);
+    return;
+  }
+  const std::string asked = question_.thing.said.empty() ? "such thing" : question_.thing.said;
+  if (!resolution_.missing_place.empty()) {
+    answer.sentence = "I know of no " + resolution_.missing_place + ".";
+  } else {
+    answer.sentence = "I know of no " + asked;
+    answer.sentence += resolution_.elsewhere > 0 ? "; " + std::to_string(resolution_.elsewhere) + " elsewhere." : ".";
+  }
+}
+
+void AnswerContext::say(const std::string& sentence) {
+  answer.sentence = capitalised(whenText() + sentence);
+}
+
+std::string AnswerContext::be(std::size_t number) const {
+  if (answer.at_ns) {
+    return number == 1 ? "was" : "were";
+  }
+  return number == 1 ? "is" : "are";
+}
+
+std::string AnswerContext::whenText() const {
+  if (!answer.at_ns) {
+    return {};
+  }
+  const bool moment = span_->from_ns == span_->to_ns;
+  return (moment ? clock_.text(*answer.at_ns) : clock_.dayText(*answer.at_ns)) + ", ";
+}
+
+}  // namespace oikos::semantic

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers about states: what is open, and how far; what a knob is set to.
+#include <algorithm>
+
+#include "core/base/number_text.h"
+#include "semantic/query/answer_context.h"
+#include "semantic/query/sentence.h"
+#include "semantic/query/words.h"
+
+namespace oikos::semantic {
+
+namespace {
+
+std::string knobText(const Knob& knob, const Thing& thing) {
+  Thing named = thing;
+  named.kind = ThingKind::kKnob;
+  named.knob = &knob;
+  return theName(named);
+}
+
+std::string stateSentence(const AnswerContext& ctx, const Thing& thing) {
+  const bool several = jointsOf(thing).size() > 1;
+  return theName(thing) + (several ? ": " : " " + ctx.be(1) + " ") + stateText(thing);
+}
+
+/// Whether all words of the state that was asked for are in the knob's state, or nothing: the knob cannot be so at all.
+std::optional<bool> isSetTo(const Knob& knob, const std::string& state) {
+  if (state == "on" || state == "running") {
+    return knob.current != "off";
+  }
+  const std::vector<std::string> asked = wordsOf(state);
+  const auto fits = [&](const std::string& name) {
+    const std::vector<std::string> words = wordsOf(name);
+    return std::all_of(asked.begin(), asked.end(),
+                       [&](const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); });
+  };
+  const bool can_be = std::any_of(knob.states.begin(), knob.states.end(), [&](const KnobState& s) { return fits(s.name); });
+  return can_be ? std::optional(fits(knob.current)) : std::nullopt;
+}
+
+/// When a joint of the thing was open within the time asked for, though not at its end.
+std::optional<std::int64_t> openedWithin(const AnswerContext& ctx, const Thing& thing) {
+  if (ctx.history() == nullptr || !ctx.span() || ctx.span()->from_ns == ctx.span()->to_ns) {
+    return std::nullopt;
+  }
+  for (const Joint* joint : jointsOf(thing)) {
+    for (const Event& event : ctx.history()->eventsOf(joint->id.value)) {
+      const auto* value = event.after ? std::get_if<JointValue>(&*event.after) : nullptr;
+      Joint then = *joint;
+      then.value = value == nullptr ? 0.0 : value->value;
+      if (value != nullptr && event.time_ns >= ctx.span()->from_ns && event.time_ns < ctx.span()->to_ns && isOpen(then)) {
+        return event.time_ns;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+void answerIsOpen(AnswerContext& ctx, const Things& things) {
+  const bool open = ctx.question().state == "open";
+  Things movable;
+  std::copy_if(things.begin(), things.end(), std::back_inserter(movable), [](const Thing* thing) { return isOpen(*thing).has_value(); });
+  if (movable.empty()) {
+    return ctx.nothingFits("I know of no way to open the " + ctx.question().thing.said + ".");
+  }
+  const auto fits = [&](const Thing* thing) { return *isOpen(*thing) == open; };
+  ctx.take(movable);
+  const auto so = static_cast<std::size_t>(std::count_if(movable.begin(), movable.end(), fits));
+  if (so == movable.size() || (so > 0 && ctx.question().any)) {
+    ctx.answer.yes = true;
+  } else if (so == 0 || ctx.question().all) {  // else: which one was meant cannot be told
+    ctx.answer.yes = false;
+  }
+  std::string sentence = listOf(movable, [&](const Thing& thing) { return stateSentence(ctx, thing); });
+  if (const auto opened_ns = open && ctx.answer.yes == false && movable.size() == 1 ? openedWithin(ctx, *movable.front()) : std::nullopt) {
+    ctx.answer.yes = true;
+    sentence += " at the end, but it was open " + ctx.clock().text(*opened_ns);
+  }
+  const std::string verdict = !ctx.answer.yes ? "" : *ctx.answer.yes ? "yes: " : "no: ";
+  ctx.say(verdict + sentence + ".");
+}
+
+}  // namespace
+
+void answerIsState(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  if (things->empty()) {
+    return ctx.nothingFits();
+  }
+  if (ctx.question().state == "open" || ctx.question().state == "closed") {
+    return answerIsOpen(ctx, *things);
+  }
+  Things settable;
+  std::vector<std::string> texts;
+  std::size_t so = 0;
+  std::size_t knobs = 0;
+  for (const Thing* thing : *things) {
+    for (const Knob* knob : knobsOf(*thing)) {
+      if (const auto is_so = isSetTo(*knob, ctx.question().state)) {
+        ++knobs;
+        so += *is_so ? 1 : 0;
+        texts.push_back(knobText(*knob, *thing) + " " + ctx.be(1) + " set to " + knob->current);
+        settable.push_back(thing);
+      }
+    }
+  }
+  if (settable.empty()) {
+    return ctx.nothingFits("I know of nothing that would set the " + ctx.question().thing.said + " to '" + ctx.question().state + "'.");
+  }
+  ctx.take(settable);
+  // "on": one knob of the oven will do; anything else asks for all.
+  const bool any_will_do = ctx.question().state == "on" || ctx.question().state == "running";
+  ctx.answer.yes = any_will_do ? so > 0 : so == knobs;
+  ctx.say((*ctx.answer.yes ? "yes: " : "no: ") + enumerated(texts) + ".");
+}
+
+void answerWhichState(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  const std::string& state = ctx.question().state;
+  Things fitting;
+  bool any_has_it = false;
+  for (const Thing* thing : *things) {
+    bool fits = false;
+    if (state == "open" || state == "closed") {
+      const auto open = isOpen(*thing);
+      any_has_it = any_has_it || open.has_value();
+      fits = open && *open == (state == "open");
+    } else {
+      for (const Knob* knob : knobsOf(*thing)) {
+        const auto is_so = isSetTo(*knob, state);
+        any_has_it = any_has_it || is_so.has_value();
+        fits = fits || is_so.value_or(false);
+      }
+    }
+    if (fits) {
+      fitting.push_back(thing);
+    }
+  }
+  if (!any_has_it) {
+    return ctx.nothingFits(things->empty() ? "" : "I know of none that could be " + state + ".");
+  }
+  ctx.take(fitting);
+  ctx.say(fitting.empty() ? "none." : listOf(fitting, [&](const Thing& thing) {
+                                        return jointsOf(thing).empty() ? theName(thing) + " " + ctx.be(1) + " " + state
+                                                                       : stateSentence(ctx, thing);
+                                      }) + ".");
+}
+
+void answerHowFar(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  Things movable;
+  std::copy_if(things->begin(), things->end(), std::back_inserter(movable), [](const Thing* thing) { return isOpen(*thing).has_value(); });
+  if (movable.empty()) {
+    return ctx.nothingFits(things->empty() ? "" : "I know of no way to open the " + ctx.question().thing.said + ".");
+  }
+  ctx.take(movable);
+  ctx.say(listOf(movable, [&](const Thing& thing) { return stateSentence(ctx, thing); }) + ".");
+}
+
+void answerSetting(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  Things knobs;
+  for (const Thing* thing : *things) {
+    for (const Knob* knob : knobsOf(*thing)) {
+      const Thing* found = ctx.index().findById(knob->id.value);
+      if (found != nullptr && std::find(knobs.begin(), knobs.end(), found) == knobs.end()) {
+        knobs.push_back(found);
+      }
+    }
+  }
+  if (knobs.empty()) {
+    return ctx.nothingFits(things->empty() ? "" : "The " + ctx.question().thing.said + " has nothing that could be set.");
+  }
+  ctx.take(knobs);
+  ctx.say(listOf(knobs, [&](const Thing& thing) { return theName(thing) + " " + ctx.be(1) + " set to " + thing.knob->current; }) + ".");
+}
+
+}  // namespace oikos::semantic

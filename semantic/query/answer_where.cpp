@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers about places: where, what is there, how many, whether, how far from each other.
+#include <algorithm>
+
+#include "core/base/number_text.h"
+#include "semantic/query/answer_context.h"
+#include "semantic/query/sentence.h"
+
+namespace oikos::semantic {
+
+namespace {
+
+std::string nameAndPlace(const Thing& thing) {
+  return theName(thing) + " " + placeText(thing);
+}
+
+/// "the cups fit": how the question called them.
+std::string placesSaid(const ThingPhrase& phrase) {
+  std::string text;
+  for (const PlacePhrase& place : phrase.places) {
+    text += " " + std::string(base::toString(place.relation)) + " the " + place.thing.said;
+  }
+  return text;
+}
+
+/// Nothing there, though the place is known and the thing is known elsewhere, or anything would do.
+bool isKnownAbsence(const AnswerContext& ctx) {
+  const bool anything = ctx.question().thing.words.empty() && ctx.question().thing.whole.empty();
+  return ctx.resolution().missing_place.empty() && (ctx.resolution().elsewhere > 0 || anything);
+}
+
+std::string placementText(const AnswerContext& ctx, const Placement& placement) {
+  const Thing* parent = ctx.index().findById(placement.parent);
+  if (parent == nullptr) {
+    return {};
+  }
+  if (parent->kind == ThingKind::kRoom) {
+    return "in the " + parent->name();
+  }
+  Thing carrier = *parent;
+  if (carrier.kind == ThingKind::kPart && carrier.part->parent.value.empty()) {
+    carrier.kind = ThingKind::kLargeObject;
+  }
+  return std::string(base::toString(placement.relation)) + " the " + carrier.name();
+}
+
+}  // namespace
+
+void answerWhere(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  if (things->empty()) {
+    return ctx.nothingFits();
+  }
+  ctx.take(*things);
+  if (things->size() > 1) {
+    return ctx.say(std::to_string(things->size()) + " things fit: " + listOf(*things, nameAndPlace) + ".");
+  }
+  const Thing& thing = *things->front();
+  std::string sentence = theName(thing) + " " + ctx.be(1) + " " + placeText(thing);
+  if (thing.kind == ThingKind::kSmallObject && thing.small_object->last_seen_ns && !ctx.answer.at_ns) {
+    sentence += ", last seen " + ctx.clock().text(*thing.small_object->last_seen_ns);
+  }
+  ctx.say(sentence + ".");
+}
+
+void answerUsualPlace(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  std::vector<std::string> texts;
+  Things placed;
+  for (const Thing* thing : *things) {
+    if (thing->kind != ThingKind::kSmallObject || thing->small_object->default_places.empty()) {
+      continue;
+    }
+    std::vector<std::string> places;
+    for (const Placement& placement : thing->small_object->default_places) {
+      places.push_back(placementText(ctx, placement));
+    }
+    placed.push_back(thing);
+    texts.push_back(theName(*thing) + " belongs " + joined(places, " or "));
+  }
+  if (placed.empty()) {
+    return ctx.nothingFits(things->empty() ? "" : "I do not know where it belongs.");
+  }
+  ctx.take(placed);
+  ctx.say(enumerated(texts) + ".");
+}
+
+void answerContents(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  if (things->empty()) {
+    if (!ctx.resolution().missing_place.empty()) {
+      return ctx.nothingFits();
+    }
+    const std::string what =
+        ctx.question().thing.words.empty() ? "nothing" + placesSaid(ctx.question().thing) : "no " + ctx.question().thing.said;
+    return ctx.nothingFits("I know of " + what + ".");
+  }
+  ctx.take(*things);
+  ctx.say(listOf(*things, theName) + " " + ctx.be(things->size()) + placesSaid(ctx.question().thing) + ".");
+}
+
+void answerCount(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  if (things->empty() && !isKnownAbsence(ctx)) {
+    ctx.nothingFits();
+  } else {
+    ctx.take(*things);
+    ctx.say(things->empty() ? "none" + placesSaid(ctx.question().thing) + "."
+                            : std::to_string(things->size()) + ": " + listOf(*things, nameAndPlace) + ".");
+  }
+  ctx.answer.count = things->size();
+}
+
+void answerIsThere(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  if (things->empty() && !isKnownAbsence(ctx)) {
+    return ctx.nothingFits();
+  }
+  ctx.take(*things);
+  ctx.answer.yes = !things->empty();
+  if (!things->empty()) {
+    return ctx.say(
+        "yes: " + listOf(*things, [&](const Thing& thing) { return theName(thing) + " " + ctx.be(1) + " " + placeText(thing); }) + ".");
+  }
+  ThingPhrase anywhere = ctx.question().thing;
+  anywhere.places.clear();
+  const Things others = anywhere.words.empty() ? Things() : ctx.resolve(anywhere).things;
+  ctx.say("not that I know" + (others.empty() ? "" : ": " + listOf(others, nameAndPlace)) + ".");
+}
+
+void answerProperty(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  const std::string& asked = ctx.question().property;
+  Things known;
+  std::vector<std::string> texts;
+  for (const Thing* thing : *things) {
+    std::string value;
+    if (thing->kind == ThingKind::kSmallObject) {
+      const auto& properties = thing->small_object->properties;
+      const auto found = std::find_if(properties.begin(), properties.end(), [&](const Property& p) { return p.name == asked; });
+      value = found == properties.end() ? "" : spaced(found->value);
+    }
+    if (value.empty() && (asked == "type" || asked == "kind")) {
+      value = spaced(thing->kind == ThingKind::kSmallObject ? thing->small_object->type
+                     : thing->object != nullptr             ? thing->object->type
+                                                            : thing->room->type);
+    }
+    if (!value.empty()) {
+      known.push_back(thing);
+      texts.push_back(theName(*thing) + " is " + value);
+    }
+  }
+  if (known.empty()) {
+    return ctx.nothingFits(things->empty() ? "" : "I do not know its " + asked + ".");
+  }
+  ctx.take(known);
+  ctx.say(enumerated(texts) + ".");
+}
+
+void answerDistance(AnswerContext& ctx) {
+  const auto things = ctx.resolveThing();
+  if (!things) {
+    return;
+  }
+  const Resolution others = ctx.resolve(*ctx.question().other);
+  if (things->empty() || others.things.empty()) {
+    return ctx.nothingFits(things->empty() ? "" : "I know of no " + ctx.question().other->said + ".");
+  }
+  const Thing& other = *others.things.front();
+  ctx.take(*things);
+  ctx.say(listOf(*things,
+                 [&](const Thing& thing) {
+                   return theName(thing) + " " + ctx.be(1) + " " + base::toFixedText(distanceBetween(thing, other), 2) + " m from " +
+                          theName(other);
+                 }) +
+          ".");
+}
+
+}  // namespace oikos::semantic

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semantic/query/home_words.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/base/nearest_name.h"
+#include "semantic/query/words.h"
+
+namespace oikos::semantic {
+
+namespace {
+
+std::string join(const std::vector<std::string>& words, std::size_t begin, std::size_t count) {
+  std::string text;
+  for (std::size_t i = begin; i < begin + count; ++i) {
+    text += (i > begin ? " " : "") + words[i];
+  }
+  return text;
+}
+
+std::vector<std::string> plainWords(std::string_view text) {
+  std::vector<std::string> words = wordsOf(text);
+  std::erase_if(words, [](const std::string& word) { return isFiller(word); });
+  return words;
+}
+
+std::vector<std::string> singular(std::vector<std::string> words) {
+  std::transform(words.begin(), words.end(), words.begin(), singularOf);
+  return words;
+}
+
+/// At most one letter added, left out, changed, or two neighbours swapped. Few mistype the first letter.
+bool isOneSlipAway(std::string_view a, std::string_view b) {
+  if (a.empty() || b.empty() || (a[0] != b[0] && (a.size() < 2 || b.size() < 2 || a[0] != b[1] || a[1] != b[0]))) {
+    return false;
+  }
+  if (a.size() > b.size()) {
+    std::swap(a, b);
+  }
+  if (b.size() - a.size() > 1) {
+    return false;
+  }
+  const std::size_t start = static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin());
+  a.remove_prefix(start);
+  b.remove_prefix(start);
+  if (a.size() != b.size()) {
+    return a == b.substr(1);
+  }
+  const bool swapped = a.size() >= 2 && a[0] == b[1] && a[1] == b[0] && a.substr(2) == b.substr(2);
+  return a.empty() || a.substr(1) == b.substr(1) || swapped;
+}
+
+bool isSentenceWord(const std::string& word) {
+  constexpr std::array<std::string_view, 10> words{"of", "on", "in", "with", "and", "for", "to", "at", "under", "or"};
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> Lookup::best() const {
+  int least = std::numeric_limits<int>::max();
+  for (const Match& match : matches) {
+    least = std::min(least, match.rank);
+  }
+  std::vector<std::uint32_t> things;
+  for (const Match& match : matches) {
+    if (match.rank == least) {
+      things.push_back(match.thing);
+    }
+  }
+  return things;
+}
+
+HomeWords::HomeWords(const Vocabulary& vocabulary) {
+  for (const TermKind kind : {TermKind::kRoomType, TermKind::kObjectType, TermKind::kColor}) {
+    for (const Term& term : vocabulary.of(kind)) {
+      std::vector<std::string> phrases = term.synonyms;
+      phrases.push_back(spaced(term.name));
+      for (const std::string& phrase : phrases) {
+        const std::vector<std::string> words = singular(plainWords(phrase));
+        longest_phrase_ = std::max(longest_phrase_, words.size());
+        term_of_phrase_.try_emplace(join(words, 0, words.size()), term.name);
+        addName(phrase);
+      }
+      terms_.insert(term.name);
+    }
+  }
+}
+
+void HomeWords::add(const Thing& thing) {
+  // A part's id says what it belongs to: "bathroom-cabinet-left-door" is no "bathroom door".
+  std::vector<Text> texts{{thing.id(), false, thing.kind != ThingKind::kPart && thing.kind != ThingKind::kKnob}};
+  const auto addFurniture = [&](bool own) {
+    texts.push_back({thing.object->id.value, false, own});
+    texts.push_back({thing.object->label, false, own});
+    texts.push_back({thing.object->type, own, own});
+  };
+  switch (thing.kind) {
+    case ThingKind::kRoom:
+      texts.insert(texts.end(), {{thing.room->name}, {thing.room->type, true}});
+      break;
+    case ThingKind::kLargeObject:
+      addFurniture(true);
+      break;
+    case ThingKind::kPart:
+      texts.push_back({thing.part->label, true});
+      addFurniture(false);
+      break;
+    case ThingKind::kKnob:
+      texts.insert(texts.end(), {{thing.knob->label}, {"knob", true}});
+      addFurniture(false);
+      break;
+    case ThingKind::kSmallObject:
+      texts.insert(texts.end(), {{thing.small_object->label}, {thing.small_object->type, true}});
+      for (const Property& property : thing.small_object->properties) {
+        texts.push_back({property.value});
+      }
+  }
+  for (const Text& text : texts) {
+    addText(next_, text);
+  }
+  numbers_.try_emplace(thing.id(), next_++);
+}
+
+void HomeWords::addText(std::uint32_t number, const Text& text) {
+  const std::vector<std::string> words = plainWords(text.text);
+  const std::vector<std::string> singulars = singular(words);
+  const std::vector<Phrase> phrases = phrasesOf(singulars);
+  const std::uint8_t own = text.is_own ? kOwn : 0;
+  for (const Phrase& phrase : phrases) {
+    const bool last = &phrase == &phrases.back();
+    const int whole = (text.is_type ? kType : 0) | (phrases.size() == 1 ? kWhole : 0);
+    const auto fit = static_cast<std::uint8_t>(text.is_own && last ? own | kHead | whole : own);
+    const auto term = term_of_phrase_.find(phrase.text);
+    const bool is_term = phrase.count == 1 && terms_.contains(words[phrase.first]);
+    addPosting(is_term ? words[phrase.first] : term == term_of_phrase_.end() ? phrase.text : term->second, {number, fit});
+    for (std::size_t i = phrase.first; i < phrase.first + phrase.count; ++i) {
+      const bool is_phrase = phrase.count == 1;
+      const bool ends = last && text.is_own && i + 1 == phrase.first + phrase.count;
+      const std::uint8_t word_fit = is_phrase ? fit : static_cast<std::uint8_t>(own | (ends ? kHead : 0));
+      addPosting(is_term ? words[i] : singulars[i], {number, word_fit});
+    }
+  }
+  if (text.is_own) {
+    addName(text.text);
+  }
+}
+
+void HomeWords::addPosting(const std::string& key, Posting posting) {
+  Postings& list = things_of_word_[key];
+  if (!list.empty() && list.back().thing == posting.thing) {
+    list.back().fit |= posting.fit;
+  } else {
+    list.push_back(posting);
+  }
+}
+
+void HomeWords::addName(std::string_view text) {
+  if (text.find(' ') == std::string_view::npos) {
+    return;
+  }
+  const std::vector<std::string> words = wordsOf(text);
+  if (words.size() > 1 && std::any_of(words.begin(), words.end(), isSentenceWord)) {
+    names_.insert(join(singular(words), 0, words.size()));
+    longest_name_ = std::max(longest_name_, words.size());
+  }
+}
+
+std::vector<std::string> HomeWords::joinNames(const std::vector<std::string>& words) const {
+  if (names_.empty() || std::none_of(words.begin(), words.end(), isSentenceWord)) {
+    return words;
+  }
+  const std::vector<std::string> singulars = singular(words);
+  std::vector<std::string> joined;
+  for (std::size_t i = 0; i < words.size();) {
+    std::size_t count = std::min(longest_name_, words.size() - i);
+    while (count > 1 && !names_.contains(join(singulars, i, count))) {
+      --count;
+    }
+    joined.push_back(join(words, i, std::max<std::size_t>(count, 1)));
+    i += std::max<std::size_t>(count, 1);
+  }
+  return joined;
+}
+
+std::vector<HomeWords::Phrase> HomeWords::phrasesOf(const std::vector<std::string>& words) const {
+  std::vector<Phrase> phrases;
+  for (std::size_t begin = 0; begin < words.size();) {
+    std::size_t count = std::min(longest_phrase_, words.size() - begin);
+    while (count > 1 && !term_of_phrase_.contains(join(words, begin, count))) {
+      --count;
+    }
+    phrases.push_back({join(words, begin, count), begin, count});
+    begin += count;
+  }
+  return phrases;
+}
+
+std::size_t HomeWords::Meaning::size() const {
+  std::size_t total = named == nullptr ? 0 : named->size();
+  for (const Postings* list : said) {
+    total += list->size();
+  }
+  return total;
+}
+
+HomeWords::Meaning HomeWords::meaningOf(const std::string& phrase, const std::string& verbatim) const {
+  static const Postings nothing;
+  Meaning meaning;
+  const auto add = [&](const std::string& word) {
+    const auto list = things_of_word_.find(word);
+    if (list != things_of_word_.end()) {
+      meaning.said.push_back(&list->second);
+    } else if (terms_.contains(word)) {
+      meaning.said.push_back(&nothing);
+    }
+  };
+  add(phrase);
+  if (verbatim != phrase) {
+    add(verbatim);
+  }
+  if (const auto term = term_of_phrase_.find(phrase); term != term_of_phrase_.end() && term->second != phrase && term->second != verbatim) {
+    const auto list = things_of_word_.find(term->second);
+    meaning.named = list == things_of_word_.end() ? &nothing : &list->second;
+  }
+  return meaning;
+}
+
+/// The first in the alphabet of the known words that one typing error makes of it; empty: none.
+std::string HomeWords::correctionOf(const std::string& word) const {
+  constexpr std::size_t kShortest = 4;
+  std::string best;
+  if (word.size() < kShortest) {
+    return best;
+  }
+  const auto offer = [&](const std::string& known) {
+    if ((best.empty() || known < best) && isOneSlipAway(word, known)) {
+      best = known;
+    }
+  };
+  for (const auto& [phrase, term] : term_of_phrase_) {
+    if (things_of_word_.contains(term)) {
+      offer(phrase);
+    }
+  }
+  if (best.empty()) {
+    for (const auto& [known, list] : things_of_word_) {
+      offer(known);
+    }
+  }
+  return best;
+}
+
+std::vector<std::string> HomeWords::nearestWords(const std::string& word) const {
+  constexpr int kMostSlips = 2;
+  constexpr std::size_t kMost = 3;
+  std::vector<std::pair<int, std::string>> near;
+  for (const auto& [known, list] : things_of_word_) {
+    const std::size_t longer = std::max(known.size(), word.size());
+    if (longer - std::min(known.size(), word.size()) <= kMostSlips && longer > 3) {
+      if (const int slips = base::editDistance(word, known); slips <= kMostSlips) {
+        near.emplace_back(slips, known);
+      }
+    }
+  }
+  std::sort(near.begin(), near.end());
+  std::vector<std::string> words;
+  for (const auto& [slips, known] : near) {
+    if (words.size() < kMost) {
+      words.push_back(spaced(known));
+    }
+  }
+  return words;
+}
+
+std::optional<int> HomeWords::rankOf(const Meaning& meaning, std::uint32_t thing, bool is_last) {
+  std::optional<int> rank;
+  const auto look = [&](const Postings& list, bool by_other_word) {
+    const auto found =
+        std::lower_bound(list.begin(), list.end(), thing, [](const Posting& posting, std::uint32_t t) { return posting.thing < t; });
+    if (found == list.end() || found->thing != thing) {
+      return;
+    }
+    const std::uint8_t fit = found->fit;
+    int here = (fit & kOwn) == 0 ? (is_last ? 4 : 3) : is_last ? 2 : 0;
+    if (is_last && (fit & kHead) != 0) {
+      here = (fit & (kType | kWhole)) != 0 && !by_other_word ? 0 : 1;
+    }
+    rank = std::min(rank.value_or(here), here);
+  };
+  for (const Postings* list : meaning.said) {
+    look(*list, false);
+  }
+  if (meaning.named != nullptr) {
+    look(*meaning.named, true);
+  }
+  return rank;
+}
+
+void HomeWords::intersect(const std::vector<Meaning>& meanings, Lookup& lookup) {
+  const auto least =
+      std::min_element(meanings.begin(), meanings.end(), [](const Meaning& a, const Meaning& b) { return a.size() < b.size(); });
+  std::vector<std::uint32_t> candidates;
+  candidates.reserve(least->size());
+  const auto gather = [&](const Postings& list) {
+    for (const Posting& posting : list) {
+      candidates.push_back(posting.thing);
+    }
+  };
+  std::for_each(least->said.begin(), least->said.end(), [&](const Postings* list) { gather(*list); });
+  if (least->named != nullptr) {
+    gather(*least->named);
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  for (const std::uint32_t thing : candidates) {
+    std::optional<int> rank = 0;
+    for (std::size_t i = 0; i < meanings.size() && rank; ++i) {
+      const auto here = rankOf(meanings[i], thing, i + 1 == meanings.size());
+      rank = here ? std::optional(std::max(*rank, *here)) : std::nullopt;
+    }
+    if (rank) {
+      lookup.matches.push_back({thing, *rank});
+    }
+  }
+}
+
+Lookup HomeWords::find(const std::vector<std::string>& words) const {
+  Lookup lookup;
+  std::vector<std::string> plain;
+  for (const std::string& word : words) {
+    if (word.find(' ') == std::string::npos) {
+      plain.push_back(word);
+    } else {
+      const std::vector<std::string> parts = plainWords(word);
+      plain.insert(plain.end(), parts.begin(), parts.end());
+    }
+  }
+  std::erase_if(plain, [](const std::string& word) { return isFiller(word); });
+  std::vector<Meaning> meanings;
+  for (const Phrase& phrase : phrasesOf(singular(plain))) {
+    const std::string& verbatim = phrase.count == 1 ? plain[phrase.first] : phrase.text;
+    Meaning meaning = meaningOf(phrase.text, verbatim);
+    if (meaning.empty()) {
+      const std::string meant = correctionOf(phrase.text);
+      if (meant.empty()) {
+        lookup.unknown.push_back(verbatim);
+        continue;
+      }
+      lookup.corrected.push_back(phrase.text + " -> " + meant);
+      meaning = meaningOf(meant, meant);
+    }
+    meanings.push_back(std::move(meaning));
+  }
+  if (lookup.unknown.empty() && !meanings.empty()) {
+    intersect(meanings, lookup);
+  }
+  return lookup;
+}
+
+std::optional<std::uint32_t> HomeWords::findNumber(std::string_view id) const {
+  const auto found = numbers_.find(id);
+  return found == numbers_.end() ? std::nullopt : std::optional(found->second);
+}
+
+}  // namespace oikos::semantic

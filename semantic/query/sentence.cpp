@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semantic/query/sentence.h"
+
+#include <cmath>
+
+#include "core/base/number_text.h"
+#include "semantic/model/pose.h"
+#include "semantic/query/found_thing.h"
+
+namespace oikos::semantic {
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : between) + word;
+  }
+  return text;
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') {
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  }
+  return text;
+}
+
+std::string enumerated(const std::vector<std::string>& texts) {
+  std::string text;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == texts.size() ? " and " : ", ";
+    text += texts[i];
+  }
+  return text;
+}
+
+std::string theName(const Thing& thing) {
+  return "the " + thing.name();
+}
+
+std::string placeText(const Thing& thing) {
+  const std::string in_room = "in the " + thing.room->name;
+  if (thing.kind == ThingKind::kRoom) {
+    return "a room of the home";
+  }
+  if (thing.kind != ThingKind::kSmallObject) {
+    return in_room;
+  }
+  if (thing.object == nullptr) {
+    return (thing.small_object->relation == Relation::kOn ? "on the floor " : "") + in_room;
+  }
+  const bool in_moving_part = thing.part != nullptr && !thing.part->parent.value.empty();
+  Thing carrier = thing;
+  carrier.kind = in_moving_part ? ThingKind::kPart : ThingKind::kLargeObject;
+  return std::string(base::toString(thing.small_object->relation)) + " the " + carrier.name() + " " + in_room;
+}
+
+std::string openingText(const Joint& joint) {
+  return joint.type == JointType::kRevolute ? base::toFixedText(openingOf(joint) / kRadPerDeg, 0) + " degrees"
+                                            : base::toFixedText(openingOf(joint) * 100.0, 0) + " cm";
+}
+
+std::string stateText(const Thing& thing) {
+  const std::vector<const Joint*> joints = jointsOf(thing);
+  std::vector<std::string> states;
+  for (const Joint* joint : joints) {
+    const auto& parts = thing.object->articulation->parts;
+    const auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.id == joint->child; });
+    const bool named = joints.size() > 1 && part != parts.end();
+    const std::string name = named ? "its " + (part->label.empty() ? part->id.value : part->label) + " is " : "";
+    states.push_back(name + (isOpen(*joint) ? "open by " + openingText(*joint) : "closed"));
+  }
+  return enumerated(states);
+}
+
+std::string positionText(const Eigen::Vector3d& position_map) {
+  return "(" + base::toFixedText(position_map.x(), 2) + ", " + base::toFixedText(position_map.y(), 2) + ")";
+}
+
+std::string standText(const Eigen::Isometry3d& T_map_base) {
+  const double yaw_deg = Pose::fromIsometry(T_map_base).roll_pitch_yaw_rad.z() / kRadPerDeg;
+  return positionText(T_map_base.translation()) + ", facing " + base::toFixedText(yaw_deg, 0) + " degrees";
+}
+
+}  // namespace oikos::semantic

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/support/question_table.h"
+
+namespace oikos::semantic {
+namespace {
+
+const std::filesystem::path kSource = OIKOS_SOURCE_DIR;
+
+TEST(QuestionTable, EveryQuestionIsAnsweredRight) {
+  const std::vector<test::TableRow> table = test::readTable(kSource / "tests/data/questions/table.json");
+  EXPECT_GE(table.size(), 150U);
+  const test::TableScore score = test::score(table, kSource);
+  EXPECT_EQ(score.right, table.size());
+  for (const std::string& failure : score.failures) {
+    ADD_FAILURE() << failure;
+  }
+}
+
+TEST(QuestionTable, TheWayPeopleTalk) {
+  const std::vector<test::TableRow> table = test::readTable(kSource / "tests/data/questions/people.json");
+  ASSERT_EQ(table.size(), 80U);
+  const test::TableScore score = test::score(table, kSource);
+  std::printf("the way people talk: %zu of %zu right, %zu confident wrong answers\n", score.right, table.size(), score.confident.size());
+  EXPECT_GE(100 * score.right, 85 * table.size());
+  for (const std::string& failure : score.confident) {
+    ADD_FAILURE() << failure;
+  }
+}
+
+}  // namespace
+}  // namespace oikos::semantic
