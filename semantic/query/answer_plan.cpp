@@ -18,7 +18,10 @@ std::string partName(const LargeObject& object, const PartId& id) {
 }
 
 std::string carrierText(const Thing& thing) {
-  if (thing.kind == ThingKind::kSmallObject && thing.object != nullptr) {
+  if (thing.object == nullptr) {
+    return "the " + thing.room->name;
+  }
+  if (thing.kind == ThingKind::kSmallObject) {
     return theName(Thing{ThingKind::kLargeObject, thing.room, thing.object, nullptr, nullptr, nullptr});
   }
   return theName(thing);

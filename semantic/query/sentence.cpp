@@ -78,7 +78,8 @@ std::string positionText(const Eigen::Vector3d& position_map) {
 
 std::string standText(const Eigen::Isometry3d& T_map_base) {
   const double yaw_deg = Pose::fromIsometry(T_map_base).roll_pitch_yaw_rad.z() / kRadPerDeg;
-  return positionText(T_map_base.translation()) + ", facing " + base::toFixedText(yaw_deg, 0) + " degrees";
+  return positionText(T_map_base.translation()) + ", facing " + base::toFixedText(std::round(yaw_deg) + 0.0, 0) +
+         " degrees";  // + 0.0: no "-0"
 }
 
 }  // namespace oikos::semantic
