@@ -83,9 +83,9 @@ TEST(PowerCut, NoAcknowledgedEventIsLostAndNoBatchIsHalfThere) {
       disk.restore();
     }
     acknowledged_in_all += acknowledged;
-    expectWholeBatches(History(file, HistoryAccess::kRead).eventsAfter(0, 100000), acknowledged, cut);
+    History history(file, HistoryAccess::kAppend);  // a reader may not roll back what creating the file had begun
+    expectWholeBatches(history.eventsAfter(0, 100000), acknowledged, cut);
     if (i % kGoOnEach == 0) {
-      History history(file, HistoryAccess::kAppend);
       const std::int64_t number = history.append(batch(0));
       EXPECT_EQ(number, history.lastNumber());
       EXPECT_LE(history.checkpoints().size(), 2U);
