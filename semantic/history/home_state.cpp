@@ -238,6 +238,9 @@ void HomeState::takeFrom(const History& history, const std::string& subject) {
   }
   newest_ns_[subject] = newest->time_ns;
   set(subject, *newest->after);
+  if (!std::holds_alternative<Placement>(*newest->after)) {
+    return;  // to look for a sighting among a joint's events would take all of them
+  }
   const std::optional<Event> sighting = history.findSightingAt(subject, kAnyTime);
   if (sighting || newest->kind == EventKind::kReverted) {  // else what home.xml says of it stays
     setSeen(subject, sighting);
@@ -288,7 +291,8 @@ Home homeAt(const Home& current, const History& history, std::int64_t time_ns) {
     } else if (const auto later = history.findStateAfter(subject, time_ns); later && stateUntil(*later)) {
       state.set(subject, *stateUntil(*later));
     }
-    if (history.findSightingAt(subject, kAnyTime)) {
+    const std::optional<State> shown = state.findState(subject);
+    if (shown && std::holds_alternative<Placement>(*shown) && history.findSightingAt(subject, kAnyTime)) {
       state.setSeen(subject, history.findSightingAt(subject, time_ns));
     }
   }
