@@ -94,7 +94,7 @@ cv::Mat readHeader(const Chunk& chunk, const ChunkReader& reader, const std::str
   if (width == 0 || height == 0 || width > kLargestSize_px || height > kLargestSize_px) {
     reader.fail("its size is " + std::to_string(width) + "x" + std::to_string(height));
   }
-  return {static_cast<int>(height), static_cast<int>(width), CV_16UC1};
+  return cv::Mat(static_cast<int>(height), static_cast<int>(width), CV_16UC1);
 }
 
 std::string inflate(const std::string& compressed, std::size_t size, const ChunkReader& reader) {

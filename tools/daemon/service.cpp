@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/daemon/service.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/error.h"
@@ -79,10 +80,15 @@ void Service::keepFresh() {
     changed_ = false;
     lock.unlock();
     refresh();
-    const bool quick = index_took_ns_ <= std::chrono::nanoseconds(config_.quick_index).count();
     lock.lock();
-    pause(lock, quick ? std::chrono::milliseconds(1) : config_.index_gap, false);
+    pause(lock, indexGap(), false);
   }
+}
+
+/// An index never takes more than half of a core.
+std::chrono::milliseconds Service::indexGap() const {
+  const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::nanoseconds(index_took_ns_));
+  return took < config_.quick_index ? std::chrono::milliseconds(1) : std::max(config_.index_gap, took);
 }
 
 void Service::refresh() {

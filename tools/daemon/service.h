@@ -83,6 +83,7 @@ class Service {
   void keepFresh();
   void keepWritten();
   void refresh();
+  [[nodiscard]] std::chrono::milliseconds indexGap() const;
   void tell(std::int64_t last_event);
   void index(const std::shared_ptr<const semantic::HomeSnapshot>& snapshot);
   bool pause(std::unique_lock<std::mutex>& lock, std::chrono::milliseconds time, bool until_changed);
