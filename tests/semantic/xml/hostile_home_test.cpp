@@ -83,7 +83,7 @@ TEST(HostileHome, AHundredThousandRoomsAreAHome) {
   ASSERT_EQ(reading.home.rooms.size(), static_cast<std::size_t>(kRooms));
   const HomeIndex index(reading.home);
   ASSERT_NE(index.findById("r99999"), nullptr);
-  EXPECT_EQ(index.findById("r99999")->room, &reading.home.rooms.back());
+  EXPECT_EQ(index.findById("r99999")->room->id.value, "r99999");
 }
 
 TEST(HostileHome, AHundredThousandErrorsAreReportedByTheFirstThousand) {
