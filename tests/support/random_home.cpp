@@ -84,7 +84,7 @@ class Maker {
     }
     object.grasp.symmetry_axes_model = some(2, [&] { return axis(); });
     if (coin()) {
-      object.last_seen_ns = std::int64_t{1'700'000'000} * 1'000'000'000 + upTo(1'000'000) * 1'000 * (coin() ? 1 : 1'000'000);
+      object.last_seen_ns = std::int64_t{1'700'000'000} * 1'000'000'000 + std::int64_t{1'000} * upTo(1'000'000) * (coin() ? 1 : 1'000'000);
       object.confidence = std::min(length() / 5.0, 1.0);
     }
     return object;
