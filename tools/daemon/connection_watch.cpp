@@ -4,10 +4,13 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace oikos::daemon {
 
 namespace {
+
+constexpr std::chrono::milliseconds kJustCome{500};
 
 /// Whoever closes the socket notices, wherever it waits; the number stays taken until then.
 void shut(ConnectionWatch::Connection& connection) {
@@ -22,7 +25,7 @@ void shut(ConnectionWatch::Connection& connection) {
 ConnectionWatch::Connection* ConnectionWatch::add(int socket, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   if (open() >= limits_.connections) {
-    makeRoom();
+    makeRoom(now);
   }
   connections_.push_back({socket, ConnectionPhase::kWaiting, now, false, {}});
   connections_.back().self = std::prev(connections_.end());
@@ -66,12 +69,17 @@ std::size_t ConnectionWatch::open() const {
   return std::count_if(connections_.begin(), connections_.end(), [](const Connection& connection) { return !connection.shut; });
 }
 
-/// Who has sent no request makes room first, then who has sent a part of one, then who takes its time to read; the longest wait counts.
-void ConnectionWatch::makeRoom() {
+/// Who has sent no request makes room first, then who has sent a part of one, then who takes its time to read; the longest wait counts. Who
+/// has only just come goes last: its request may be on its way.
+void ConnectionWatch::makeRoom(Clock::time_point now) {
+  const auto rank = [now](const Connection& connection) {
+    const bool has_just_come = connection.phase == ConnectionPhase::kWaiting && now - connection.since < kJustCome;
+    return std::tuple(has_just_come, connection.phase, connection.since);
+  };
   Connection* last = nullptr;
   for (Connection& connection : connections_) {
     const bool may_go = !connection.shut && connection.phase != ConnectionPhase::kStreaming;
-    if (may_go && (last == nullptr || std::pair(connection.phase, connection.since) < std::pair(last->phase, last->since))) {
+    if (may_go && (last == nullptr || rank(connection) < rank(*last))) {
       last = &connection;
     }
   }

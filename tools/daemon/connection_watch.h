@@ -52,7 +52,7 @@ class ConnectionWatch {
 
  private:
   [[nodiscard]] std::size_t open() const;
-  void makeRoom();
+  void makeRoom(Clock::time_point now);
   [[nodiscard]] bool isLate(const Connection& connection, Clock::time_point now) const;
 
   const ConnectionLimits limits_;

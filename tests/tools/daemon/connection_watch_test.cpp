@@ -95,5 +95,19 @@ TEST(ConnectionWatch, AtTheLimitWhoHasAskedForNothingLongestMakesRoom) {
   EXPECT_EQ(watch.count(ConnectionPhase::kStreaming), 1U);
 }
 
+TEST(ConnectionWatch, WhoHasOnlyJustComeDoesNotMakeRoomForTheNext) {
+  ConnectionWatch watch(kLimits);
+  const std::array<Pair, 4> pairs;
+  std::array<ConnectionWatch::Connection*, 4> connections{};
+  for (int i = 0; i < 3; ++i) {
+    connections[i] = watch.add(pairs[i].ours.number(), kStart + i * 10ms);
+  }
+  watch.enter(connections[0], ConnectionPhase::kReceiving, kStart + 5ms);
+  watch.enter(connections[1], ConnectionPhase::kReceiving, kStart + 15ms);
+  connections[3] = watch.add(pairs[3].ours.number(), kStart + 30ms);
+  EXPECT_TRUE(pairs[0].isShut());
+  EXPECT_FALSE(pairs[2].isShut());
+}
+
 }  // namespace
 }  // namespace oikos::daemon

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,11 +19,13 @@ struct ServedHome {
 
   explicit ServedHome(AccessRules rules = {"127.0.0.1", "the-token", false}) {
     std::filesystem::copy(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml", folder.path() / "home.xml");
-    service = std::make_unique<Service>(folder.path(), Service::Hooks{[] { return kNow_ns; },
-                                                                      [this](const std::string& line) {
-                                                                        ++reports;
-                                                                        last_report = line;
-                                                                      }});
+    service = std::make_unique<Service>(folder.path(),
+                                        Service::Hooks{[] { return kNow_ns; },
+                                                       [this](const std::string& line) {
+                                                         ++reports;
+                                                         last_report = line;
+                                                       }},
+                                        ServiceConfig{.quick_index = std::chrono::minutes(1)});  // never old, however slow the test runs
     api = std::make_unique<Api>(*service, std::move(rules), nullptr);
   }
 
