@@ -84,7 +84,8 @@ void measure(int objects) {
   semantic::History history(folder.path() / "history.sqlite", semantic::HistoryAccess::kAppend);
   history.append(sightings(index));
   const semantic::Inquiry present{&index, nullptr, kNow_ns, std::nullopt};
-  const semantic::Inquiry with_history{&index, &history, kNow_ns, std::nullopt};
+  semantic::Recollection recollection(history);
+  const semantic::Inquiry with_history{&index, &history, kNow_ns, std::nullopt, &recollection};
   constexpr int kFew = 11;
   std::printf("| %d | %.1f | %.2f | %.2f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.0f |\n", objects,
               static_cast<double>(std::filesystem::file_size(file)) / 1e6, load_s, index_s, relink_ms,

@@ -35,6 +35,13 @@ struct Belief {
   std::optional<Place> expected_at;      ///< the most probable place; nothing: none has a probability above 0
 };
 
+/// What is known of an object before its history.
+struct BeliefPrior {
+  std::vector<Placement> default_places;
+  double half_life_s = 1.0;                        ///< above 0
+  std::optional<Event> first_seen = std::nullopt;  ///< counts as long as the history says nothing
+};
+
 /// The belief in one object, event by event. Not thread-safe.
 ///
 /// The object is put away at random times, as often as `half_life_s` says (after that time half of all objects have not been touched), and
@@ -51,6 +58,8 @@ class BeliefFilter {
   void take(const Event& event);
   /// `now_ns`: not before the last event.
   [[nodiscard]] Belief at(std::int64_t now_ns) const;
+  /// Of the events that it has taken; nothing: none told of a place.
+  [[nodiscard]] const std::optional<std::int64_t>& newest_ns() const { return time_ns_; }
 
  private:
   struct Weighted {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semantic/history/commit_queue.h"
 
+#include <thread>
 #include <utility>
 
 namespace oikos::semantic {
@@ -23,9 +24,22 @@ std::int64_t CommitQueue::run(std::vector<Event> events) {
   return batch.last_number;
 }
 
+/// Lets those come who are about to: a thread that has just been served hands in its next sooner than a disk syncs.
+void CommitQueue::gather(std::unique_lock<std::mutex>& lock) {
+  constexpr int kPatience = 4;
+  for (int in_vain = 0; waiting_.size() < expected_ && in_vain < kPatience;) {
+    const std::size_t before = waiting_.size();
+    lock.unlock();
+    std::this_thread::yield();
+    lock.lock();
+    in_vain = waiting_.size() == before ? in_vain + 1 : 0;
+  }
+}
+
 void CommitQueue::commitWaiting(std::unique_lock<std::mutex>& lock) {
-  const std::vector<Batch*> together = std::exchange(waiting_, {});
   committing_ = true;
+  gather(lock);
+  const std::vector<Batch*> together = std::exchange(waiting_, {});
   lock.unlock();
   std::exception_ptr failure;
   try {
@@ -35,6 +49,7 @@ void CommitQueue::commitWaiting(std::unique_lock<std::mutex>& lock) {
   }
   lock.lock();
   committing_ = false;
+  expected_ = together.size() + waiting_.size();
   for (Batch* batch : together) {
     batch->failure = batch->failure ? batch->failure : failure;
     batch->done = true;

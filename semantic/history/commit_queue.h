@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -31,12 +32,14 @@ class CommitQueue {
   std::int64_t run(std::vector<Event> events);
 
  private:
+  void gather(std::unique_lock<std::mutex>& lock);
   void commitWaiting(std::unique_lock<std::mutex>& lock);
 
   Commit commit_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Batch*> waiting_;
+  std::size_t expected_ = 0;  ///< at the next commit, if all come again
   bool committing_ = false;
 };
 

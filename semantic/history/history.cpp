@@ -163,6 +163,8 @@ class History::Database {
         : last_number(database, select("max(e.number)", {}, "")),
           after_number(database, select(kWhole, {"e.number > ?"}, "ORDER BY e.number LIMIT ?")),
           of_subject(database, select(kWhole, {"e.subject = ?", kCounts}, "ORDER BY e.time_ns, e.number")),
+          last_of_subject(database,
+                          select(kWhole, {"e.subject = ?", "e.time_ns <= ?", kCounts}, "ORDER BY e.time_ns DESC, e.number DESC LIMIT ?")),
           between(database, select(kWhole, {"e.time_ns >= ?", "e.time_ns < ?", kCounts}, "ORDER BY e.time_ns, e.number")),
           state_at(database, select(kWhole, {"e.subject = ?", "e.time_ns <= ?", kSaysState, kCounts},
                                     "ORDER BY e.time_ns DESC, e.number DESC LIMIT 1")),
@@ -184,6 +186,7 @@ class History::Database {
     SqliteStatement last_number;
     SqliteStatement after_number;
     SqliteStatement of_subject;
+    SqliteStatement last_of_subject;
     SqliteStatement between;
     SqliteStatement state_at;
     SqliteStatement state_after;
@@ -339,6 +342,20 @@ std::vector<Event> History::eventsOf(std::string_view subject) const {
         return database_->allOf(*use);
       },
       std::vector<Event>());
+}
+
+std::vector<Event> History::lastEventsOf(std::string_view subject, std::int64_t time_ns, std::size_t limit) const {
+  std::vector<Event> events = database_->withReads(
+      [&](Database::Reads& reads) {
+        const SqliteUse use(reads.last_of_subject);
+        use->bind(1, subject);
+        use->bind(2, time_ns);
+        use->bind(3, static_cast<std::int64_t>(limit));
+        return database_->allOf(*use);
+      },
+      std::vector<Event>());
+  std::reverse(events.begin(), events.end());
+  return events;
 }
 
 std::vector<Event> History::eventsBetween(std::int64_t from_ns, std::int64_t to_ns) const {

@@ -48,6 +48,8 @@ class History {
   [[nodiscard]] std::vector<Event> eventsAfter(std::int64_t number, std::size_t limit) const;
   /// In the order of time, then of commits. Without what was taken back.
   [[nodiscard]] std::vector<Event> eventsOf(std::string_view subject) const;
+  /// The newest by `time_ns`, at most `limit`; in the same order.
+  [[nodiscard]] std::vector<Event> lastEventsOf(std::string_view subject, std::int64_t time_ns, std::size_t limit) const;
   /// With from_ns <= time_ns < to_ns, in the order of time, then of commits. Without what was taken back.
   [[nodiscard]] std::vector<Event> eventsBetween(std::int64_t from_ns, std::int64_t to_ns) const;
   /// The newest at `time_ns` that says something about the subject's state; nothing: it had said nothing by then. O(log n).

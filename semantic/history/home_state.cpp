@@ -263,7 +263,7 @@ void HomeState::apply(const Event& event, const History& history) {
   }
 }
 
-void HomeState::takeNewFrom(const History& history) {
+void HomeState::takeNewFrom(const History& history, const std::function<void(const Event&)>& taken) {
   for (;;) {
     const std::vector<Event> events = history.eventsAfter(home_.as_of, kBatch);
     if (events.empty()) {
@@ -271,6 +271,9 @@ void HomeState::takeNewFrom(const History& history) {
     }
     for (const Event& event : events) {
       apply(event, history);
+      if (taken) {
+        taken(event);
+      }
     }
     home_.as_of = events.back().number;
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,8 +29,8 @@ class HomeState {
   void check(const Event& event) const;
   /// One event that the history contains already. What is newer than it stays.
   void apply(const Event& event, const History& history);
-  /// Every event that was committed after the home's `as_of`, which becomes the last one's number.
-  void takeNewFrom(const History& history);
+  /// Every event that was committed after the home's `as_of`, which becomes the last one's number. `taken` is told of each.
+  void takeNewFrom(const History& history, const std::function<void(const Event&)>& taken = {});
 
   /// A state that is none of this subject, or a subject that is not there, is passed over: home.xml was edited since.
   void set(const std::string& subject, const State& state);

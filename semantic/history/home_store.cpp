@@ -49,13 +49,14 @@ class HomeStore::Impl {
     return snapshot_;
   }
   [[nodiscard]] const History& history() const { return history_; }
+  [[nodiscard]] Recollection& recollection() { return recollection_; }
 
   std::int64_t append(std::vector<Event> events) { return queue_.run(std::move(events)); }
 
   bool refresh() {
     const std::lock_guard lock(state_mutex_);
     const std::int64_t before = state_.home().as_of;
-    state_.takeNewFrom(history_);
+    takeNew();
     if (state_.home().as_of == before) {
       return false;
     }
@@ -126,6 +127,7 @@ class HomeStore::Impl {
     takeEditsFrom(file, prior);
     state_ = HomeState(file_home_);
     state_.takeNewFrom(history_);
+    recollection_.clear();
     ++structure_;
     publish();
     return true;
@@ -159,6 +161,9 @@ class HomeStore::Impl {
       return;
     }
     std::int64_t number = history_.append(together) - static_cast<std::int64_t>(together.size());
+    for (std::size_t i = 0; i < together.size(); ++i) {
+      together[i].number = number + static_cast<std::int64_t>(i) + 1;
+    }
     takeCommitted(together, number);
     for (CommitQueue::Batch* batch : batches) {
       if (!batch->failure) {
@@ -187,13 +192,18 @@ class HomeStore::Impl {
 
   void takeCommitted(const std::vector<Event>& events, std::int64_t number_before) {
     if (number_before != state_.home().as_of) {
-      state_.takeNewFrom(history_);  // another process has committed something in between
+      takeNew();  // another process has committed something in between
       return;
     }
     for (const Event& event : events) {
       state_.apply(event, history_);
+      recollection_.take(event);
     }
     state_.setAsOf(number_before + static_cast<std::int64_t>(events.size()));
+  }
+
+  void takeNew() {
+    state_.takeNewFrom(history_, [this](const Event& event) { recollection_.take(event); });
   }
 
   void publish() {
@@ -206,6 +216,7 @@ class HomeStore::Impl {
   const std::function<std::int64_t()> now_ns_;
   const HomeLock lock_;
   History history_;
+  Recollection recollection_{history_};
 
   std::mutex file_mutex_;  // taken before state_mutex_; of home.xml and:
   std::string known_content_;
@@ -232,6 +243,10 @@ std::shared_ptr<const HomeSnapshot> HomeStore::snapshot() const {
 
 const History& HomeStore::history() const {
   return impl_->history();
+}
+
+Recollection& HomeStore::recollection() const {
+  return impl_->recollection();
 }
 
 std::int64_t HomeStore::append(std::vector<Event> events) {

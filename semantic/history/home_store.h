@@ -10,6 +10,7 @@
 
 #include "semantic/history/event.h"
 #include "semantic/history/history.h"
+#include "semantic/history/recollection.h"
 #include "semantic/model/home.h"
 
 namespace oikos::semantic {
@@ -35,6 +36,8 @@ class HomeStore {
   /// Readers keep the pointer as long as they like.
   [[nodiscard]] std::shared_ptr<const HomeSnapshot> snapshot() const;
   [[nodiscard]] const History& history() const;
+  /// Of the same history; knows at least of every event that the snapshot contains.
+  [[nodiscard]] Recollection& recollection() const;
 
   /// Checks the events against the home (Error{kInput}), fills in `before`, commits them all or none (Error{kIo}: refused, nothing changed)
   /// and returns the last one's number. The snapshot contains them before it returns. What comes from several threads at a time shares one

@@ -8,6 +8,9 @@ namespace oikos::semantic {
 
 namespace {
 
+constexpr double kSecondsPerHour = 3600.0;
+constexpr double kUnknownStaysFor_h = 168.0;
+
 bool contains(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -53,7 +56,15 @@ void Vocabulary::add(TermKind kind, const Term& term) {
       known->synonyms.push_back(synonym);
     }
   }
+  known->stays_for_h = term.stays_for_h ? term.stays_for_h : known->stays_for_h;
 }
+
+double Vocabulary::halfLife_s(std::string_view object_type) const {
+  const Term* const term = find(TermKind::kObjectType, object_type);
+  return kSecondsPerHour * (term == nullptr ? kUnknownStaysFor_h : term->stays_for_h.value_or(kUnknownStaysFor_h));
+}
+
+/// How long objects stay is a guess for a household of two; a home says better for its own.
 
 Vocabulary builtInVocabulary() {
   return {
@@ -86,24 +97,24 @@ Vocabulary builtInVocabulary() {
        {"washing_machine", {"washer"}},
        {"sink", {"washbasin", "basin"}},
        {"bathtub", {"tub"}},
-       {"cup", {"mug", "beaker"}},
-       {"glass", {"tumbler"}},
-       {"bowl", {}},
-       {"dish", {"plate"}},
-       {"bottle", {"flask"}},
+       {"cup", {"mug", "beaker"}, 24.0},
+       {"glass", {"tumbler"}, 24.0},
+       {"bowl", {}, 24.0},
+       {"dish", {"plate"}, 24.0},
+       {"bottle", {"flask"}, 24.0},
        {"container", {"can", "tin", "jar"}},
        {"box", {"carton", "packet"}},
-       {"pills_box", {"pillbox", "pills", "medicine", "tablets"}},
+       {"pills_box", {"pillbox", "pills", "medicine", "tablets"}, 48.0},
        {"book", {}},
-       {"phone", {"telephone", "mobile"}},
-       {"remote_control", {"remote"}},
-       {"keys", {"key"}},
-       {"glasses", {"spectacles"}},
-       {"pot", {"saucepan"}},
-       {"pan", {"frying pan"}},
-       {"fork", {}},
-       {"knife", {}},
-       {"spoon", {}}},
+       {"phone", {"telephone", "mobile"}, 6.0},
+       {"remote_control", {"remote"}, 12.0},
+       {"keys", {"key"}, 12.0},
+       {"glasses", {"spectacles"}, 6.0},
+       {"pot", {"saucepan"}, 48.0},
+       {"pan", {"frying pan"}, 48.0},
+       {"fork", {}, 24.0},
+       {"knife", {}, 24.0},
+       {"spoon", {}, 24.0}},
       {{"supporting_surface", {"put things on"}},
        {"graspable", {"grasp", "hold"}},
        {"sittable", {"sit on"}},

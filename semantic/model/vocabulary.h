@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@ namespace oikos::semantic {
 struct Term {
   std::string name;
   std::vector<std::string> synonyms;
+  std::optional<double> stays_for_h = std::nullopt;  ///< of a type of object: after that time half of them lie elsewhere
   bool operator==(const Term&) const = default;
 };
 
@@ -36,8 +38,10 @@ struct Vocabulary {
   [[nodiscard]] const std::vector<Term>& of(TermKind kind) const;
   /// The term with this name, or with this synonym where no name matches; case matters. Null: none.
   [[nodiscard]] const Term* find(TermKind kind, std::string_view word) const;
-  /// A name that is there already gets the further synonyms.
+  /// A name that is there already gets the further synonyms, and the time if there is one.
   void add(TermKind kind, const Term& term);
+  /// How long an object of this type stays where it is: after that time half of them lie elsewhere.
+  [[nodiscard]] double halfLife_s(std::string_view object_type) const;
   bool operator==(const Vocabulary&) const = default;
 };
 

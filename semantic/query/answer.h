@@ -12,6 +12,7 @@
 #include "core/base/enum_table.h"
 #include "semantic/history/event.h"
 #include "semantic/history/history.h"
+#include "semantic/history/recollection.h"
 #include "semantic/query/found_thing.h"
 #include "semantic/query/home_index.h"
 
@@ -19,10 +20,11 @@ namespace oikos::semantic {
 
 /// What a question is put to.
 struct Inquiry {
-  const HomeIndex* index = nullptr;  ///< of the home as it stands; never null
-  const History* history = nullptr;  ///< null: nothing is known of the past
-  std::int64_t now_ns = 0;           ///< since 1970, UTC
-  std::optional<RobotPlace> robot;   ///< orders parking poses and what is near
+  const HomeIndex* index = nullptr;      ///< of the home as it stands; never null
+  const History* history = nullptr;      ///< null: nothing is known of the past
+  std::int64_t now_ns = 0;               ///< since 1970, UTC
+  std::optional<RobotPlace> robot;       ///< orders parking poses and what is near
+  Recollection* recollection = nullptr;  ///< of the same history; null: each question reads the history
 };
 
 enum class AnswerStatus { kAnswered, kNothingFits, kUnknownWord, kNotUnderstood };

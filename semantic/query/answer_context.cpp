@@ -2,11 +2,44 @@
 #include "semantic/query/answer_context.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "semantic/history/home_state.h"
 #include "semantic/query/sentence.h"
 
 namespace oikos::semantic {
+
+namespace {
+
+/// As home.xml has it: seen there at that time, with that confidence.
+BeliefPrior priorOf(const SmallObject& small, const Vocabulary& vocabulary) {
+  BeliefPrior prior{small.default_places, vocabulary.halfLife_s(small.type), std::nullopt};
+  if (small.last_seen_ns) {
+    Event& seen = prior.first_seen.emplace();
+    seen.subject = small.id.value;
+    seen.kind = EventKind::kSighted;
+    seen.time_ns = *small.last_seen_ns;
+    seen.confidence = small.confidence.value_or(1.0);
+    seen.after = Placement{small.parent, small.relation, small.T_parent_object};
+  }
+  return prior;
+}
+
+void setBelief(const Belief& belief, FoundThing& found) {
+  constexpr double kLeastShown = 0.01;
+  found.elsewhere = belief.elsewhere;
+  found.confidence = 0.0;
+  for (const PlaceProbability& place : belief.places) {
+    if (place.place == Place{found.parent, found.relation.value_or(Relation::kOn)}) {
+      found.confidence = place.probability;
+    }
+    if (place.probability >= kLeastShown) {
+      found.expected_at.push_back(place);
+    }
+  }
+}
+
+}  // namespace
 
 AnswerContext::AnswerContext(const Inquiry& inquiry, const Question& question)
     : inquiry_(inquiry), question_(question), clock_(inquiry.index->home().time_zone, inquiry.now_ns) {}
@@ -71,17 +104,30 @@ void AnswerContext::sayUnknown() {
 
 FoundThing AnswerContext::found(const Thing& thing) const {
   FoundThing described = describe(thing, robot());
-  if (history() == nullptr) {
-    return described;
+  const bool is_joint = thing.kind == ThingKind::kPart && !described.joints.empty();
+  remember(is_joint ? described.joints.front().id : described.id, thing, described);
+  return described;
+}
+
+void AnswerContext::remember(const std::string& subject, const Thing& thing, FoundThing& described) const {
+  std::function<BeliefPrior()> prior;
+  if (thing.kind == ThingKind::kSmallObject) {
+    prior = [&] { return priorOf(*thing.small_object, present().home().vocabulary); };
   }
-  std::string subject = described.id;
-  if (thing.kind == ThingKind::kPart && !described.joints.empty()) {
-    subject = described.joints.front().id;
+  std::shared_ptr<const Recalled> recalled;
+  if (!answer.at_ns && inquiry_.recollection != nullptr) {
+    recalled = inquiry_.recollection->recall(subject, prior);
   }
-  if (const auto event = history()->findStateAt(subject, moment_ns())) {
+  if (!recalled || recalled->newest_ns.value_or(moment_ns()) > moment_ns()) {
+    const std::optional<BeliefPrior> made = prior ? std::optional(prior()) : std::nullopt;
+    recalled = std::make_shared<const Recalled>(recallAt(history(), subject, made ? &*made : nullptr, moment_ns()));
+  }
+  if (const std::optional<Event>& event = recalled->state) {
     described.evidence = Evidence{event->number, event->recording, event->frame, event->evidence};
   }
-  return described;
+  if (recalled->belief) {
+    setBelief(recalled->belief->at(moment_ns()), described);
+  }
 }
 
 void AnswerContext::take(const Things& things) {

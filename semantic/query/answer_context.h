@@ -49,6 +49,7 @@ class AnswerContext {
 
  private:
   void sayUnknown();
+  void remember(const std::string& subject, const Thing& thing, FoundThing& described) const;
 
   const Inquiry& inquiry_;
   const Question& question_;

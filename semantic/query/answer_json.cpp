@@ -17,6 +17,10 @@ double rounded(double value) {
   return std::round(value * 1e6) / 1e6 + 0.0;
 }
 
+double toThousandth(double probability) {
+  return std::round(probability * 1e3) / 1e3;
+}
+
 Json poseJson(const Eigen::Isometry3d& T) {
   const Pose pose = Pose::fromIsometry(T);
   const Eigen::Vector3d& t = pose.position_m;
@@ -68,6 +72,14 @@ Json usualPlacesJson(const std::vector<Placement>& places) {
   return list;
 }
 
+Json expectedJson(const std::vector<PlaceProbability>& places) {
+  Json list = Json::array();
+  for (const auto& [place, probability] : places) {
+    list.push_back({{"parent", place.parent}, {"relation", base::toString(place.relation)}, {"probability", toThousandth(probability)}});
+  }
+  return list;
+}
+
 Json evidenceJson(const std::optional<Evidence>& evidence) {
   if (!evidence) {
     return {};
@@ -92,7 +104,9 @@ Json thingJson(const FoundThing& found) {
   json["usual_places"] = usualPlacesJson(found.usual_places);
   json["setting"] = textOrNull(found.setting);
   json["last_seen"] = found.last_seen_ns ? Json(base::toRfc3339(*found.last_seen_ns)) : Json();
-  json["confidence"] = found.confidence ? Json(*found.confidence) : Json();
+  json["confidence"] = found.confidence ? Json(toThousandth(*found.confidence)) : Json();
+  json["expected_at"] = expectedJson(found.expected_at);
+  json["elsewhere"] = found.elsewhere ? Json(toThousandth(*found.elsewhere)) : Json();
   json["evidence"] = evidenceJson(found.evidence);
   return json;
 }

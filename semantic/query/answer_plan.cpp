@@ -105,30 +105,60 @@ void orderForFetching(const AnswerContext& ctx, Things& things) {
   });
 }
 
-/// S95-S99: where it was last, then its usual places.
-void addSearch(AnswerContext& ctx, const Thing& thing) {
-  for (const Placement& placement : thing.small_object->default_places) {
-    const Thing* parent = ctx.index().findById(placement.parent);
-    if (placement.parent == thing.small_object->parent || parent == nullptr || parent->object == nullptr) {
+/// Where it may be: as it is said to lie now, and at its usual places.
+struct Candidate {
+  SmallObject small;
+  double probability = 0.0;
+};
+
+/// S95-S99: where it was last, then its usual places; what is believed to be likelier comes first.
+std::vector<Candidate> candidatesFor(const AnswerContext& ctx, const SmallObject& small) {
+  const FoundThing& found = ctx.answer.found.front();
+  const auto probabilityOf = [&](const Place& place) {
+    const auto known = std::find_if(found.expected_at.begin(), found.expected_at.end(), [&](const auto& p) { return p.place == place; });
+    return known == found.expected_at.end() ? 0.0 : known->probability;
+  };
+  std::vector<Candidate> candidates{{small, probabilityOf({small.parent, small.relation})}};
+  for (const Placement& placement : small.default_places) {
+    const Thing* const parent = ctx.index().findById(placement.parent);
+    if (placement.parent == small.parent || parent == nullptr || parent->object == nullptr) {
       continue;
     }
-    Thing there = thing;
-    SmallObject moved = *thing.small_object;
+    SmallObject moved = small;
     moved.parent = placement.parent;
     moved.relation = placement.relation;
     moved.T_parent_object = placement.T_parent_object;
-    there.room = parent->room;
-    there.object = parent->object;
-    there.part = parent->part;
-    there.small_object = &moved;
-    PlanStep go = goTo(describe(there, ctx.robot()), there);
-    go.text = "if it is not there, " + go.text;
-    ctx.answer.steps.push_back(go);
-    for (const Joint* joint : jointsInTheWay(there)) {
-      ctx.answer.steps.push_back(openStep(*there.object, *joint));
-    }
-    ctx.answer.steps.push_back({StepKind::kLook, thing.id(), {there.T_map_thing()}, "look for " + theName(thing) + " " + placeText(there)});
+    candidates.push_back({std::move(moved), probabilityOf({placement.parent, placement.relation})});
   }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
+  return candidates;
+}
+
+/// Go, open, look; returns the thing's description there.
+FoundThing addLook(AnswerContext& ctx, const Thing& there, std::string_view condition) {
+  FoundThing found = describe(there, ctx.robot());
+  PlanStep go = goTo(found, there);
+  go.text.insert(0, condition);
+  ctx.answer.steps.push_back(std::move(go));
+  for (const Joint* joint : jointsInTheWay(there)) {
+    ctx.answer.steps.push_back(openStep(*there.object, *joint));
+  }
+  ctx.answer.steps.push_back({StepKind::kLook, there.id(), {there.T_map_thing()}, "look for " + theName(there) + " " + placeText(there)});
+  return found;
+}
+
+/// `small`: the thing where it may be.
+Thing thingAt(const AnswerContext& ctx, const Thing& thing, const SmallObject& small) {
+  Thing there = thing;
+  there.small_object = &small;
+  if (small.parent != thing.small_object->parent) {
+    const Thing& parent = *ctx.index().findById(small.parent);
+    there.room = parent.room;
+    there.object = parent.object;
+    there.part = parent.part;
+  }
+  return there;
 }
 
 }  // namespace
@@ -261,15 +291,13 @@ void answerFetch(AnswerContext& ctx) {
   if (thing.kind != ThingKind::kSmallObject || !thing.small_object->graspable) {
     return ctx.say(theName(thing) + " " + ctx.be(1) + " " + placeText(thing) + ", but it cannot be carried.");
   }
-  const FoundThing& found = ctx.answer.found.front();
-  ctx.answer.steps.push_back(goTo(found, thing));
-  for (const Joint* joint : jointsInTheWay(thing)) {
-    ctx.answer.steps.push_back(openStep(*thing.object, *joint));
-  }
-  ctx.answer.steps.push_back({StepKind::kLook, thing.id(), {thing.T_map_thing()}, "look for " + theName(thing) + " " + placeText(thing)});
-  ctx.answer.steps.push_back({StepKind::kGrasp, thing.id(), found.T_map_grasp, "grasp it"});
+  const std::vector<Candidate> candidates = candidatesFor(ctx, *thing.small_object);
+  const FoundThing first = addLook(ctx, thingAt(ctx, thing, candidates.front().small), "");
+  ctx.answer.steps.push_back({StepKind::kGrasp, thing.id(), first.T_map_grasp, "grasp it"});
   const std::string plan = stepsText(ctx.answer.steps);
-  addSearch(ctx, thing);
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    (void)addLook(ctx, thingAt(ctx, thing, candidates[i].small), "if it is not there, ");
+  }
   ctx.say(plan + "." + (things->size() > 1 ? " " + std::to_string(things->size() - 1) + " more would fit." : ""));
 }
 

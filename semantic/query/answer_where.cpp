@@ -44,6 +44,17 @@ std::string placementText(const AnswerContext& ctx, const Placement& placement) 
   return std::string(base::toString(placement.relation)) + " the " + carrier.name();
 }
 
+/// Where the only found thing is likelier than where it was last; empty: nowhere.
+std::string likelierText(const AnswerContext& ctx) {
+  const FoundThing& found = ctx.answer.found.front();
+  if (found.expected_at.empty() || found.expected_at.front().probability <= found.confidence.value_or(1.0)) {
+    return {};
+  }
+  const auto& [place, probability] = found.expected_at.front();
+  const std::string text = placementText(ctx, {place.parent, place.relation, {}});
+  return text.empty() ? "" : (ctx.answer.at_ns ? ", more likely " : ", by now more likely ") + text;
+}
+
 }  // namespace
 
 void answerWhere(AnswerContext& ctx) {
@@ -63,7 +74,7 @@ void answerWhere(AnswerContext& ctx) {
   if (thing.kind == ThingKind::kSmallObject && thing.small_object->last_seen_ns && !ctx.answer.at_ns) {
     sentence += ", last seen " + ctx.clock().text(*thing.small_object->last_seen_ns);
   }
-  ctx.say(sentence + ".");
+  ctx.say(sentence + likelierText(ctx) + ".");
 }
 
 void answerUsualPlace(AnswerContext& ctx) {

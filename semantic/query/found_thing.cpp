@@ -70,7 +70,6 @@ void describePlace(const Thing& thing, FoundThing& found) {
   found.T_parent_thing = small.T_parent_object.toIsometry();
   found.usual_places = small.default_places;
   found.last_seen_ns = small.last_seen_ns;
-  found.confidence = small.confidence;
 }
 
 }  // namespace

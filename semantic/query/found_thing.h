@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "semantic/history/belief.h"
 #include "semantic/query/thing.h"
 
 namespace oikos::semantic {
@@ -54,7 +55,9 @@ struct FoundThing {
   std::vector<Placement> usual_places;
   std::string setting;  ///< of a knob
   std::optional<std::int64_t> last_seen_ns;
-  std::optional<double> confidence;
+  std::optional<double> confidence;           ///< of a small object: the probability that it is there still
+  std::vector<PlaceProbability> expected_at;  ///< from 0.01 on, the most probable first
+  std::optional<double> elsewhere;            ///< the probability of a place where it was never seen and does not belong
   std::optional<Evidence> evidence;
 };
 

@@ -102,6 +102,16 @@ std::optional<double> Attributes::share(std::string_view name) const {
   return value;
 }
 
+std::optional<double> Attributes::hours(std::string_view name) const {
+  constexpr double kCentury_h = 876'600.0;
+  const auto value = number(name);
+  if (value && (*value <= 0.0 || *value > kCentury_h)) {
+    refuse(name, quoted(text(name)), "above 0 and at most 876600 hours");
+    return std::nullopt;
+  }
+  return value;
+}
+
 std::vector<Eigen::Vector2d> Attributes::polygon(std::string_view name) const {
   std::vector<double> numbers;
   std::string_view rest = find(name).value_or("");

@@ -26,6 +26,7 @@ class Attributes {
   [[nodiscard]] std::optional<double> number(std::string_view name) const;
   [[nodiscard]] std::optional<double> length(std::string_view name) const;  ///< not negative
   [[nodiscard]] std::optional<double> share(std::string_view name) const;   ///< from 0 to 1
+  [[nodiscard]] std::optional<double> hours(std::string_view name) const;   ///< above 0, at most a century
   [[nodiscard]] std::vector<Eigen::Vector2d> polygon(std::string_view name) const;
   [[nodiscard]] bool flag(std::string_view name) const { return find(name) == "true" || find(name) == "1"; }
   [[nodiscard]] Pose pose(std::string_view name) const;

@@ -226,7 +226,7 @@ void write(const Room& room, XmlNode& node) {
   }
 }
 
-/// The terms that the built-in vocabulary lacks, with the synonyms that it lacks.
+/// The terms that the built-in vocabulary lacks, with the synonyms and times that it lacks.
 XmlNode vocabularyNode(const Vocabulary& vocabulary) {
   static const Vocabulary built_in = builtInVocabulary();
   XmlNode node = leaf("vocabulary", {});
@@ -242,7 +242,11 @@ XmlNode vocabularyNode(const Vocabulary& vocabulary) {
           term_node.children.back().text = synonym;
         }
       }
-      if (known == known_terms.end() || !term_node.children.empty()) {
+      const bool stays_otherwise = term.stays_for_h && (known == known_terms.end() || known->stays_for_h != term.stays_for_h);
+      if (stays_otherwise) {
+        term_node.attributes.emplace_back("staysFor_h", numberText(*term.stays_for_h));
+      }
+      if (known == known_terms.end() || stays_otherwise || !term_node.children.empty()) {
         node.children.push_back(std::move(term_node));
       }
     }

@@ -118,7 +118,13 @@ class Builder {
   void term(const Attributes& a) {
     term_kind_ = a.choice<TermKind>("kind");
     term_ = a.text("name");
-    vocabulary_.add(term_kind_, {term_, {}});
+    const auto stays_for_h = a.hours("staysFor_h");
+    if (stays_for_h && term_kind_ != TermKind::kObjectType) {
+      findings.push_back({Severity::kError, element_->line, "element 'term', attribute 'staysFor_h'",
+                          "a term of kind '" + std::string(base::toString(term_kind_)) + "'",
+                          "a term of kind 'object': nothing else is moved"});
+    }
+    vocabulary_.add(term_kind_, {term_, {}, stays_for_h});
   }
 
   void room(const Attributes& a) {

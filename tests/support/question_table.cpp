@@ -43,7 +43,7 @@ QuestionedHome::QuestionedHome(const std::filesystem::path& source_folder, const
 }
 
 semantic::Answer QuestionedHome::ask(const std::string& question, std::int64_t now_ns) const {
-  return semantic::answerQuestion({index_.get(), &store_->history(), now_ns, std::nullopt}, question);
+  return semantic::answerQuestion({index_.get(), &store_->history(), now_ns, std::nullopt, &store_->recollection()}, question);
 }
 
 std::vector<TableRow> readTable(const std::filesystem::path& file) {

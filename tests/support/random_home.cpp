@@ -199,6 +199,8 @@ class Maker {
     if (coin()) {
       words.add(choice<TermKind>(), {"own_word", {text(), "other"}});
       words.add(TermKind::kColor, {"blue", {"ultramarine"}});
+      words.add(TermKind::kObjectType, {"cup", {}, 0.5 + length()});
+      words.add(TermKind::kObjectType, {"own_thing", {}, 0.5 + length()});
     }
     made.vocabulary = words;
     do {

@@ -20,7 +20,8 @@ Response answerAsk(const Call& call) {
   const std::shared_ptr<const HomeView> view = call.service.view();
   Response response;
   response.status = 200;
-  response.body = semantic::toJson(semantic::answerQuestion({&view->index, &call.service.history(), now_ns, robot}, *question));
+  response.body = semantic::toJson(
+      semantic::answerQuestion({&view->index, &call.service.history(), now_ns, robot, &call.service.recollection()}, *question));
   return response;
 }
 

@@ -168,6 +168,23 @@ TEST(Answer, AsJson) {
   EXPECT_TRUE(nlohmann::json::accept(toJson(ask(home, "where is \xFF\xFE"))));
 }
 
+TEST(Answer, WhatWasSeenLongAgoIsLessSureAndMayBeExpectedElsewhere) {
+  Home home = papersHouse();
+  auto& on_table = home.rooms[0].objects[0].edit().small_objects;
+  SmallObject& cup = *std::find_if(on_table.begin(), on_table.end(), [](const SmallObject& small) { return small.id.value == "blue-cup"; });
+  constexpr std::int64_t kDay_ns = 86'400'000'000'000;
+  cup.last_seen_ns = kNow_ns - kDay_ns;  // a cup's half-life
+  cup.confidence = 1.0;
+  const FoundThing yesterday = ask(home, "where is the blue cup").found.at(0);
+  // It is put away to the table (a usual place, and seen to have come there), the cupboard (a usual place), or elsewhere, as 2 : 1 : 1.
+  EXPECT_NEAR(yesterday.confidence.value(), 0.5 + 0.5 * 2 / 4, 1e-9);
+  EXPECT_NEAR(yesterday.elsewhere.value(), 0.5 * 1 / 4, 1e-9);
+  ASSERT_FALSE(yesterday.expected_at.empty());
+  EXPECT_EQ(yesterday.expected_at.front().place.parent, cup.parent);
+  home.vocabulary.edit().add(TermKind::kObjectType, {"cup", {}, 24000.0});
+  EXPECT_GT(ask(home, "where is the blue cup").found.at(0).confidence.value(), 0.999) << "cups stay longer in this home";
+}
+
 TEST(Answer, NoTextThrows) {
   const Home home = papersHouse();
   const HomeIndex index(home);
