@@ -38,15 +38,30 @@ class Resolver {
   [[nodiscard]] static bool isAt(const Thing& thing, PlaceRelation relation, const Resolution& places);
 
  private:
+  // resolver_nouns.cpp
   [[nodiscard]] Lookup lookUp(const ThingPhrase& phrase) const;
+  [[nodiscard]] Lookup lookUpNoun(const ThingPhrase& phrase) const;
   void dropWholes(const ThingPhrase& phrase, Lookup& lookup) const;
+  [[nodiscard]] Things bestOf(const Lookup& lookup) const;
+  // resolver_places.cpp
   void filterByPlaces(const ThingPhrase& phrase, Lookup& lookup, Resolution& resolution) const;
   void filterByPlace(const PlacePhrase& place, Lookup& lookup, Resolution& resolution) const;
+  [[nodiscard]] bool filterByRoom(const PlacePhrase& place, Lookup& lookup, Resolution& resolution) const;
+  void keepNextTo(const Thing& place, Lookup& lookup) const;
+  /// "from the dishwasher", in a question about the past.
+  [[nodiscard]] bool isOfNow(const PlacePhrase& place) const;
   [[nodiscard]] Resolution resolvePlace(const PlacePhrase& place) const;
+  [[nodiscard]] Lookup carriedBy(const Things& places) const;
+  [[nodiscard]] Lookup everything() const;
+  // resolver.cpp
+  [[nodiscard]] Resolution resolveFloor(const ThingPhrase& phrase) const;
   /// Where the phrase says "open" or "closed".
   void keepOpen(const ThingPhrase& phrase, Lookup& lookup) const;
   void sortByDistance(const ThingPhrase& phrase, Resolution& resolution) const;
-  void noteWords(const Lookup& lookup, Resolution& resolution) const;
+  /// What the thing shall be nearest to; it is not among the things any more.
+  [[nodiscard]] Things takeNearestTo(const ThingPhrase& phrase, Resolution& resolution) const;
+  static void noteWords(const Lookup& lookup, Resolution& resolution);
+  static void noteWords(const Resolution& more, Resolution& resolution);
 
   const HomeIndex& index_;
   const HomeIndex& present_;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "semantic/model/pose.h"
 #include "semantic/query/found_thing.h"
@@ -38,13 +39,13 @@ std::string theName(const Thing& thing) {
 }
 
 std::string placeText(const Thing& thing) {
-  const std::string in_room = "in the " + thing.room->name;
   if (thing.kind == ThingKind::kRoom) {
     return "a room of the home";
   }
   if (thing.kind != ThingKind::kSmallObject) {
-    return in_room;
+    return "in the " + thing.room->name;
   }
+  const std::string in_room = "in the " + thing.room->name;
   if (thing.object == nullptr) {
     return (thing.small_object->relation == Relation::kOn ? "on the floor " : "") + in_room;
   }
@@ -63,6 +64,7 @@ std::string stateText(const Thing& thing) {
   const std::vector<const Joint*> joints = jointsOf(thing);
   std::vector<std::string> states;
   for (const Joint* joint : joints) {
+    OIKOS_CHECK(thing.object->articulation.has_value());
     const auto& parts = thing.object->articulation->parts;
     const auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.id == joint->child; });
     const bool named = joints.size() > 1 && part != parts.end();

@@ -2,108 +2,14 @@
 #include "semantic/query/time_phrase.h"
 
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <string_view>
 
-#include "core/base/number_text.h"
+#include "semantic/query/time_words.h"
 
 namespace oikos::semantic {
 
 namespace {
-
-constexpr std::int64_t kMinute_ns = 60'000'000'000;
-constexpr int kDayMinutes = 24 * 60;
-
-template <std::size_t N>
-std::optional<int> findIn(const std::array<std::string_view, N>& names, std::string_view word) {
-  const auto found = std::find(names.begin(), names.end(), word);
-  return found == names.end() ? std::nullopt : std::optional(static_cast<int>(found - names.begin()));
-}
-
-std::optional<int> weekdayNamed(std::string_view word) {
-  static constexpr std::array<std::string_view, 7> names{"sunday", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday"};
-  return findIn(names, word);
-}
-
-std::optional<int> monthNamed(std::string_view word) {
-  static constexpr std::array<std::string_view, 12> names{"january", "february", "march",     "april",   "may",      "june",
-                                                          "july",    "august",   "september", "october", "november", "december"};
-  const auto found = findIn(names, word);
-  return found ? std::optional(*found + 1) : std::nullopt;
-}
-
-std::optional<int> wholeNumber(std::string_view digits) {
-  constexpr std::size_t kMostDigits = 6;
-  int number = 0;
-  for (const char c : digits) {
-    if (c < '0' || c > '9') {
-      return std::nullopt;
-    }
-    number = 10 * number + (c - '0');
-    if (digits.size() > kMostDigits) {
-      return std::nullopt;
-    }
-  }
-  return digits.empty() ? std::nullopt : std::optional(number);
-}
-
-/// "3", "three", "a".
-std::optional<int> countNamed(std::string_view word) {
-  static constexpr std::array<std::string_view, 13> names{"zero",  "one",   "two",  "three", "four",   "five",  "six",
-                                                          "seven", "eight", "nine", "ten",   "eleven", "twelve"};
-  if (word == "a" || word == "an") {
-    return 1;
-  }
-  const auto named = findIn(names, word);
-  return named ? named : wholeNumber(word);
-}
-
-/// "3", "3rd".
-std::optional<int> dayOfMonth(std::string_view word) {
-  for (const std::string_view ending : {"st", "nd", "rd", "th"}) {
-    if (word.size() > 2 && word.ends_with(ending)) {
-      word.remove_suffix(2);
-      break;
-    }
-  }
-  const auto day = wholeNumber(word);
-  return day && *day >= 1 && *day <= 31 ? day : std::nullopt;
-}
-
-/// "2026-03-10".
-std::optional<CalendarDate> isoDate(std::string_view word) {
-  if (word.size() != 10 || word[4] != '-' || word[7] != '-') {
-    return std::nullopt;
-  }
-  const auto year = wholeNumber(word.substr(0, 4));
-  const auto month = wholeNumber(word.substr(5, 2));
-  const auto day = wholeNumber(word.substr(8, 2));
-  return year && month && day ? std::optional(CalendarDate{*year, *month, *day}) : std::nullopt;
-}
-
-std::optional<std::int64_t> unitNs(std::string_view word) {
-  if (word.ends_with('s')) {
-    word.remove_suffix(1);
-  }
-  if (word == "minute" || word == "min") {
-    return kMinute_ns;
-  }
-  return word == "hour" ? std::optional(60 * kMinute_ns) : std::nullopt;
-}
-
-std::optional<int> unitDays(std::string_view word) {
-  if (word.ends_with('s')) {
-    word.remove_suffix(1);
-  }
-  return word == "day" ? std::optional(1) : word == "week" ? std::optional(7) : std::nullopt;
-}
-
-std::optional<DayPart> partNamed(std::string_view word) {
-  static constexpr std::array<std::string_view, 4> names{"morning", "afternoon", "evening", "night"};
-  const auto part = findIn(names, word);
-  return part ? std::optional(static_cast<DayPart>(*part)) : std::nullopt;
-}
 
 /// Reads the pieces of a time at one place of the words after the other.
 class TimeReader {
@@ -132,16 +38,21 @@ class TimeReader {
     return i < words_.size() && std::find(list.begin(), list.end(), at(i)) != list.end();
   }
 
-  /// How many words there say a time; 0: none.
-  std::size_t pieceWithRelation(std::size_t i) {
+  /// "now", "at the moment": nothing to note, the present is meant anyway.
+  [[nodiscard]] std::size_t presentPiece(std::size_t i) const {
     if (is(i, {"now", "currently"})) {
-      return 1;  // the present is meant anyway
+      return 1;
     }
     if (is(i, {"right"}) && is(i + 1, {"now"})) {
       return 2;
     }
-    if (is(i, {"at"}) && is(i + 1, {"the"}) && is(i + 2, {"moment"})) {
-      return 3;
+    return is(i, {"at"}) && is(i + 1, {"the"}) && is(i + 2, {"moment"}) ? 3 : 0;
+  }
+
+  /// How many words there say a time; 0: none.
+  std::size_t pieceWithRelation(std::size_t i) {
+    if (const std::size_t length = presentPiece(i); length > 0) {
+      return length;
     }
     std::optional<TimeRelation> relation;
     std::size_t start = i;
@@ -310,11 +221,6 @@ class TimeReader {
     return setClock(60 * *hour + *minute, i + 1) - i;
   }
 
-  static std::optional<int> hourNamed(std::string_view word) {
-    const auto hour = word == "a" || word == "an" ? std::nullopt : countNamed(word);
-    return hour && *hour <= 24 ? hour : std::nullopt;
-  }
-
   static int toDayHour(int hour, std::string_view half) { return hour > 12 ? hour : hour % 12 + (half == "pm" ? 12 : 0); }
 
   /// The clock, with "am", "pm" or "o'clock" that may follow at `next`; returns where it ends.
@@ -338,98 +244,10 @@ class TimeReader {
   bool found_ = false;
 };
 
-/// A day without a year is the last one that is not to come.
-std::optional<int> findDay(const DayPhrase& day, const HomeClock& clock) {
-  const int today = clock.today();
-  if (day.days_ago) {
-    return today - *day.days_ago;
-  }
-  if (day.weekday) {
-    const int back = (HomeClock::weekdayOf(today) - *day.weekday + 7) % 7;
-    return today - (back == 0 && day.before_today ? 7 : back);
-  }
-  CalendarDate date = day.date.value_or(CalendarDate{});
-  if (date.year != 0) {
-    return HomeClock::findDay(date);
-  }
-  constexpr int kYearsToLeapDay = 8;
-  const int year = HomeClock::dateOf(today).year;
-  for (date.year = year; date.year >= year - kYearsToLeapDay; --date.year) {
-    const auto found = HomeClock::findDay(date);
-    if (found && *found <= today) {
-      return found;
-    }
-  }
-  return std::nullopt;
-}
-
-/// First and last minute of a part of the day, since its midnight; a night ends on the next morning.
-std::pair<int, int> minutesOf(DayPart part) {
-  switch (part) {
-    case DayPart::kMorning:
-      return {5 * 60, 12 * 60};
-    case DayPart::kAfternoon:
-      return {12 * 60, 18 * 60};
-    case DayPart::kEvening:
-      return {18 * 60, kDayMinutes};
-    case DayPart::kNight:
-      break;
-  }
-  return {20 * 60, kDayMinutes + 6 * 60};
-}
-
-/// "at 8 in the evening" is 20:00.
-int clockMinute(const TimePhrase& time) {
-  const bool later = time.part && *time.part != DayPart::kMorning;
-  return *time.minute + (later && *time.minute < kDayMinutes / 2 && *time.minute > 0 ? kDayMinutes / 2 : 0);
-}
-
-std::optional<TimeSpan> plainSpan(const TimePhrase& time, const HomeClock& clock) {
-  if (time.ago_ns) {
-    return TimeSpan{clock.now_ns() - *time.ago_ns, clock.now_ns() - *time.ago_ns, false};
-  }
-  if (time.weeks_ago) {
-    const int monday = clock.today() - (HomeClock::weekdayOf(clock.today()) + 6) % 7 - 7 * *time.weeks_ago;
-    return TimeSpan{clock.instantOf({monday, 0}), clock.instantOf({monday + 7, 0}), false};
-  }
-  const auto day = time.day ? findDay(*time.day, clock) : std::optional(clock.today());
-  if (!day) {
-    return std::nullopt;
-  }
-  if (time.minute) {
-    const int minute = clockMinute(time);
-    std::int64_t moment = clock.instantOf({*day, minute});
-    const bool may_go_back = !time.day || time.day->weekday;
-    if (moment > clock.now_ns() && may_go_back) {
-      moment = clock.instantOf({*day - (time.day ? 7 : 1), minute});
-    }
-    return TimeSpan{moment, moment, false};
-  }
-  const auto [first, last] = time.part ? minutesOf(*time.part) : std::pair(0, kDayMinutes);
-  return TimeSpan{clock.instantOf({*day, first}), clock.instantOf({*day, last}), false};
-}
-
 }  // namespace
 
 TimeReading readTime(const std::vector<std::string>& words) {
   return TimeReader(words).read();
-}
-
-std::optional<TimeSpan> resolveTime(const TimePhrase& time, const HomeClock& clock, const std::optional<TimeSpan>& last_recording) {
-  const auto span = time.last_recording ? last_recording : plainSpan(time, clock);
-  if (!span) {
-    return std::nullopt;
-  }
-  TimeSpan result = *span;
-  result.to_come = result.from_ns > clock.now_ns();
-  if (time.relation == TimeRelation::kBefore) {
-    return TimeSpan{result.from_ns - 1, result.from_ns - 1, result.to_come};
-  }
-  if (time.relation == TimeRelation::kSince) {
-    return TimeSpan{result.from_ns, clock.now_ns() + 1, result.to_come};
-  }
-  result.to_ns = std::min(result.to_ns, std::max(result.from_ns, clock.now_ns() + 1));
-  return result;
 }
 
 }  // namespace oikos::semantic

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/daemon/access_rules.h"
 
-#include <strings.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -13,8 +11,13 @@ namespace oikos::daemon {
 
 namespace {
 
+/// Of ASCII letters only, whatever the locale.
+char lowerCase(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
 bool equalNames(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && ::strncasecmp(a.data(), b.data(), a.size()) == 0;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lowerCase(x) == lowerCase(y); });
 }
 
 bool isPort(std::string_view text) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/base/error.h"
@@ -80,10 +81,11 @@ Admission Api::admit(const Request& request) {
 
 Response Api::respond(const Request& request) {
   try {
-    const RequestTarget target = parseRequestTarget(request.target).value();
-    RouteMatch match = findRoute(request.method, target);
+    const std::optional<RequestTarget> target = parseRequestTarget(request.target);
+    OIKOS_CHECK(target.has_value());
+    RouteMatch match = findRoute(request.method, *target);
     OIKOS_CHECK(match.route != nullptr);
-    return match.route->handle({request, target, service_, metrics_text_, std::move(match.id)});
+    return match.route->handle({request, *target, service_, metrics_text_, std::move(match.id)});
   } catch (const base::Error& error) {
     const bool wrong = error.code() != base::ErrorCode::kIo;
     return wrong ? failure(400, "bad_request", error.what()) : failure(503, "unavailable", error.what());
@@ -102,7 +104,8 @@ EventBatch Api::eventsAfter(std::int64_t number) {
       batch.text += "id: " + std::to_string(event.number) + "\ndata: " + semantic::toJson(event).dump() + "\n\n";
       batch.last = event.number;
     }
-  } catch (const std::exception&) {  // the stream waits until the history can be read again; /readyz says why it cannot
+  } catch (const std::exception&) {
+    return batch;  // the stream waits until the history can be read again; /readyz says why it cannot
   }
   return batch;
 }

@@ -118,7 +118,7 @@ class HttpServer::Impl {
   MHD_Result answer(MHD_Connection* connection, Pending& pending);
   MHD_Result answerOnWorker(MHD_Connection* connection, Pending& pending);
   MHD_Result send(MHD_Connection* connection, Pending& pending);
-  MHD_Response* openStream(MHD_Connection* connection, Pending& pending);
+  MHD_Response* openStream(MHD_Connection* connection, Pending& pending, std::int64_t after);
   ssize_t readStream(Pending& pending, char* buffer, std::size_t size);
   void finish(Pending* pending);
 
@@ -302,21 +302,23 @@ MHD_Result HttpServer::Impl::answerOnWorker(MHD_Connection* connection, Pending&
 
 MHD_Result HttpServer::Impl::send(MHD_Connection* connection, Pending& pending) {
   watch_.enter(pending.client->watched, ConnectionPhase::kAnswering, Clock::now());
-  MHD_Response* message = pending.response->events_after ? openStream(connection, pending) : nullptr;
+  OIKOS_CHECK(pending.response.has_value());
+  Response& response = *pending.response;
+  MHD_Response* message = response.events_after ? openStream(connection, pending, *response.events_after) : nullptr;
   if (message == nullptr) {
-    pending.bytes = pending.response->body.size();
-    message = toLibrary(std::move(pending.response->body));
+    pending.bytes = response.body.size();
+    message = toLibrary(std::move(response.body));
   }
-  addHeaders(message, *pending.response);
-  pending.status = pending.response->status;
+  addHeaders(message, response);
+  pending.status = response.status;
   const MHD_Result queued = MHD_queue_response(connection, static_cast<unsigned>(pending.status), message);
   MHD_destroy_response(message);
   return queued;
 }
 
 /// Null: there are too many, and the response says so now.
-MHD_Response* HttpServer::Impl::openStream(MHD_Connection* connection, Pending& pending) {
-  pending.stream = streams_.open(*pending.response->events_after,
+MHD_Response* HttpServer::Impl::openStream(MHD_Connection* connection, Pending& pending, std::int64_t after) {
+  pending.stream = streams_.open(after,
                                  {.socket = pending.client->socket,
                                   .suspend = [connection] { MHD_suspend_connection(connection); },
                                   .resume = [connection] { MHD_resume_connection(connection); }},

@@ -52,7 +52,7 @@ std::string RequestMetrics::text() const {
   for (std::size_t i = 0; i < took_.size(); ++i) {
     total += took_[i].load(std::memory_order_relaxed);
     const std::string bound = i < kBounds_s.size() ? base::toText(kBounds_s[i]) : "+Inf";
-    text += name + "_bucket{le=\"" + bound + "\"} " + base::toText(total) + '\n';
+    text.append(name).append("_bucket{le=\"").append(bound).append("\"} ").append(base::toText(total)).append("\n");
   }
   text += name + "_sum " + base::toText(static_cast<double>(took_ns_.load(std::memory_order_relaxed)) * kSecondsPerNs) + '\n';
   return text + name + "_count " + base::toText(total) + '\n';

@@ -17,7 +17,7 @@ namespace oikos::daemon {
 namespace {
 
 [[noreturn]] void refuse(std::string_view name, std::string_view found, std::string_view right) {
-  std::string shown(found.substr(0, 64));
+  const std::string shown(found.substr(0, 64));
   throw base::Error(base::ErrorCode::kInput, "'" + shown + "' is no " + std::string(right), std::string(name));
 }
 
@@ -33,7 +33,7 @@ Page pageOf(const RequestTarget& target) {
   page.offset = static_cast<std::size_t>(findCount(target, "offset").value_or(0));
   page.limit = static_cast<std::size_t>(findCount(target, "limit").value_or(static_cast<std::int64_t>(page.limit)));
   if (page.limit < 1 || page.limit > Page::kMostItems) {
-    refuse("limit", *target.find("limit"), "number from 1 to " + std::to_string(Page::kMostItems));
+    refuse("limit", target.find("limit").value_or(""), "number from 1 to " + std::to_string(Page::kMostItems));
   }
   return page;
 }
