@@ -8,7 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "core/base/error.h"
+#include "mapping/graph/front_end_frame.h"
+#include "mapping/graph/local_map.h"
 #include "mapping/odometry/rotation_alignment.h"
 
 namespace oikos::mapping {
@@ -26,25 +27,6 @@ std::vector<Observation> evenlyThinned(const std::vector<Observation>& observati
 }
 
 }  // namespace
-
-struct FrontEnd::Current {
-  const camera::RgbdFrame& frame;
-  std::shared_ptr<const ImagePyramid> pyramid;
-  std::optional<Features> features;
-
-  const Features& getFeatures(const camera::PinholeCamera& camera, const FeatureConfig& config) {
-    if (!features) {
-      features = extractFeatures(frame, camera, config);
-    }
-    return *features;
-  }
-};
-
-struct FrontEnd::Revisit {
-  int node = -1;
-  FollowResult seen;     ///< in the old node's world
-  double overlap = 0.0;  ///< share of the old node's landmarks that are seen again
-};
 
 FrontEnd::FrontEnd(const camera::PinholeCamera& camera, const FrontEndConfig& config, KeyframeImages& images, std::uint64_t seed)
     : camera_(camera), config_(config), images_(images), seed_(seed) {}
@@ -76,7 +58,7 @@ void FrontEnd::add(const camera::RgbdFrame& frame) {
       T_previous_current_.setIdentity();
     }
     T_world_camera_ = seen.pose.T_world_camera;
-    reference_ = mainHost(seen.observations);
+    reference_ = mainHost(result_.graph, seen.observations);
     if (keyframeDue(seen) && !borrowFromNeighbours(current, seen)) {
       addKeyframe(current, seen);
     }
@@ -150,55 +132,6 @@ FollowResult FrontEnd::follow(const Current& current, const Eigen::Isometry3d& T
   return followLandmarks({&camera_, current.pyramid.get(), &current.frame.depth_m}, candidates, T_world_camera, config_.follower);
 }
 
-/// By features: against the nodes about the last reference, then against all places.
-std::optional<FollowResult> FrontEnd::recover(Current& current) {
-  const Features& features = current.getFeatures(camera_, config_.features);
-  std::vector<int> nodes = neighbourhood(reference_, 2);
-  for (const PlaceIndex::Candidate& c : places_.query(features, config_.loop_candidates)) {
-    if (std::find(nodes.begin(), nodes.end(), c.place) == nodes.end()) {
-      nodes.push_back(c.place);
-    }
-  }
-  for (const int node : nodes) {
-    if (auto revisit = verify(current, {node, 0})) {
-      ++result_.relocalisations;
-      adopt(revisit->seen);
-      active_ = localMap(neighbourhood(node, config_.neighbourhood), T_world_camera_);
-      return std::move(revisit->seen);
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const PlaceIndex::Candidate& candidate) {
-  const auto old = static_cast<std::size_t>(candidate.place);
-  const std::vector<FeatureMatch> matches = matchFeatures(result_.features[old], *current.features);
-  const std::uint64_t seed = seed_ ^ (static_cast<std::uint64_t>(current.frame.index) << 32U) ^ static_cast<std::uint64_t>(candidate.place);
-  const RelativeMotion motion = estimateMotion(result_.features[old], *current.features, matches, camera_, config_.motion, seed);
-  LoopAttempt attempt{candidate.place, current.frame.index,      candidate.votes, static_cast<int>(motion.inlier.size()),
-                      motion.rms_px,   LoopCheck::kTooFewMatches};
-  std::optional<Revisit> revisit;
-  if (motion.status == MotionStatus::kConverged) {
-    const Eigen::Isometry3d T_world_camera = result_.graph.nodes[old].T_world_camera * motion.T_a_b;
-    FollowResult seen = follow(current, T_world_camera, localMap(neighbourhood(candidate.place, 1), T_world_camera));
-    attempt.verdict = LoopCheck::kGeometryDisagrees;
-    if (seen.tracked) {
-      attempt.verdict = LoopCheck::kAccepted;
-      attempt.inliers = seen.pose.inliers;
-      attempt.rms_px = seen.pose.rms_px;
-      const std::vector<int>& own = result_.graph.nodes[old].hosted;
-      const auto again = std::count_if(seen.observations.begin(), seen.observations.end(),
-                                       [&](const Observation& o) { return std::binary_search(own.begin(), own.end(), o.landmark); });
-      revisit =
-          Revisit{candidate.place, std::move(seen), static_cast<double>(again) / std::max<double>(1.0, static_cast<double>(own.size()))};
-    }
-  } else if (motion.status != MotionStatus::kTooFewMatches) {
-    attempt.verdict = LoopCheck::kGeometryDisagrees;
-  }
-  result_.loop_attempts.push_back(attempt);
-  return revisit;
-}
-
 bool FrontEnd::keyframeDue(const FollowResult& seen) const {
   return seen.pose.inliers < config_.keyframe_overlap * seen_at_keyframe_ || viewChange(seen) > 1.0;
 }
@@ -226,8 +159,8 @@ double FrontEnd::viewChange(const FollowResult& seen) const {
 
 /// On known ground the landmarks of nearby keyframes may do instead of a new keyframe.
 bool FrontEnd::borrowFromNeighbours(const Current& current, FollowResult& seen) {
-  std::vector<int> landmarks = localMap(neighbourhood(reference_, config_.neighbourhood), seen.pose.T_world_camera);
-  if (seen.pose.inliers + unknownTo(active_, landmarks, seen.pose.T_world_camera) < seen_at_keyframe_) {
+  std::vector<int> landmarks = landmarksAbout(reference_, config_.neighbourhood, seen.pose.T_world_camera);
+  if (seen.pose.inliers + countUnknown(result_.graph, active_, landmarks, {camera_, seen.pose.T_world_camera}) < seen_at_keyframe_) {
     return false;  // new ground: the neighbours cannot give what has gone out of view
   }
   FollowResult more = follow(current, seen.pose.T_world_camera, landmarks);
@@ -237,32 +170,13 @@ bool FrontEnd::borrowFromNeighbours(const Current& current, FollowResult& seen) 
   active_ = std::move(landmarks);
   seen = std::move(more);
   T_world_camera_ = seen.pose.T_world_camera;
-  reference_ = mainHost(seen.observations);
+  reference_ = mainHost(result_.graph, seen.observations);
   return !keyframeDue(seen);
-}
-
-/// How many of the landmarks are in view and not among the active ones.
-int FrontEnd::unknownTo(const std::vector<int>& active, const std::vector<int>& landmarks, const Eigen::Isometry3d& T_world_camera) const {
-  const std::set<int> known(active.begin(), active.end());
-  return static_cast<int>(std::count_if(landmarks.begin(), landmarks.end(), [&](int id) {
-    return !known.contains(id) && isInView(result_.graph, id, T_world_camera, camera_);
-  }));
 }
 
 void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
   const Features& features = current.getFeatures(camera_, config_.features);
-  const std::vector<int> near = neighbourhood(reference_, 2 * config_.neighbourhood);
-  std::vector<Revisit> revisits;
-  for (const PlaceIndex::Candidate& c : places_.query(features, config_.loop_candidates + static_cast<int>(near.size()))) {
-    if (c.votes < config_.min_loop_votes || static_cast<int>(revisits.size()) >= config_.loop_candidates) {
-      break;
-    }
-    if (!std::binary_search(near.begin(), near.end(), c.place)) {
-      if (auto revisit = verify(current, c)) {
-        revisits.push_back(std::move(*revisit));
-      }
-    }
-  }
+  const std::vector<Revisit> revisits = findRevisits(current);
   const auto best =
       std::max_element(revisits.begin(), revisits.end(), [](const Revisit& a, const Revisit& b) { return a.overlap < b.overlap; });
   const bool reuse = best != revisits.end() && best->overlap >= config_.reuse_overlap;
@@ -280,7 +194,7 @@ void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
     ++result_.reused_keyframes;
     seen = best->seen;
     adopt(seen);
-    active_ = localMap(neighbourhood(best->node, config_.neighbourhood), T_world_camera_);
+    active_ = landmarksAbout(best->node, config_.neighbourhood, T_world_camera_);
     seen_at_keyframe_ = seen.pose.inliers;
     return;
   }
@@ -289,13 +203,6 @@ void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
   host(current, node, seen.observations);
   reference_ = node;
   seen_at_keyframe_ = static_cast<int>(active_.size());
-}
-
-/// Goes on in the world of other nodes: what was seen there becomes the present.
-void FrontEnd::adopt(const FollowResult& seen) {
-  T_world_camera_ = seen.pose.T_world_camera;
-  reference_ = mainHost(seen.observations);
-  seen_at_keyframe_ = std::max(seen.pose.inliers, 1);
 }
 
 int FrontEnd::addNode(const Current& current, const Eigen::Isometry3d& T_world_camera, bool keyframe) {
@@ -341,52 +248,10 @@ void FrontEnd::host(const Current& current, int node, const std::vector<Observat
   }
 }
 
-int FrontEnd::mainHost(const std::vector<Observation>& observations) const {
-  std::map<int, int> count;
-  for (const Observation& o : observations) {
-    ++count[result_.graph.landmarks[static_cast<std::size_t>(o.landmark)].host];
-  }
-  OIKOS_CHECK(!count.empty());
-  return std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
-}
-
-/// Nodes up to `rings` odometry edges away, in order of their number: their worlds agree, whatever has drifted elsewhere.
-std::vector<int> FrontEnd::neighbourhood(int node, int rings) const {
-  std::set<int> found{node};
-  for (int ring = 0; ring < rings; ++ring) {
-    std::set<int> wider = found;
-    for (const Edge& e : result_.graph.edges) {
-      if (e.kind == EdgeKind::kOdometry && found.contains(e.from)) {
-        wider.insert(e.to);
-      }
-      if (e.kind == EdgeKind::kOdometry && found.contains(e.to)) {
-        wider.insert(e.from);
-      }
-    }
-    found = std::move(wider);
-  }
-  return {found.begin(), found.end()};
-}
-
-/// What the few of these nodes host that share most with a camera there: however often a place is seen again, looking for its
-/// landmarks takes no longer.
-std::vector<int> FrontEnd::localMap(const std::vector<int>& nodes, const Eigen::Isometry3d& T_world_camera) const {
-  std::vector<std::pair<int, int>> hosts;  // landmarks in view, node
-  for (const int node : nodes) {
-    const int in_view = countInView(result_.graph, node, T_world_camera, camera_);
-    if (in_view > 0) {
-      hosts.emplace_back(in_view, node);
-    }
-  }
-  std::stable_sort(hosts.begin(), hosts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  hosts.resize(std::min(hosts.size(), static_cast<std::size_t>(config_.local_keyframes)));
-  std::vector<int> landmarks;
-  for (const auto& [in_view, node] : hosts) {
-    const auto& hosted = result_.graph.nodes[static_cast<std::size_t>(node)].hosted;
-    landmarks.insert(landmarks.end(), hosted.begin(), hosted.end());
-  }
-  std::sort(landmarks.begin(), landmarks.end());
-  return landmarks;
+/// What the nodes up to `rings` edges away from this one lend to a camera there.
+std::vector<int> FrontEnd::landmarksAbout(int node, int rings, const Eigen::Isometry3d& T_world_camera) const {
+  const std::vector<int> nodes = neighbourhood(result_.graph, node, rings);
+  return localMap(result_.graph, nodes, {camera_, T_world_camera}, config_.local_keyframes);
 }
 
 void FrontEnd::record(const Current& current, const FollowResult& seen, TrackingStatus status) {

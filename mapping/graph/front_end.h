@@ -115,18 +115,15 @@ class FrontEnd {
   [[nodiscard]] bool keyframeDue(const FollowResult& seen) const;
   [[nodiscard]] double viewChange(const FollowResult& seen) const;
   bool borrowFromNeighbours(const Current& current, FollowResult& seen);
-  [[nodiscard]] int unknownTo(const std::vector<int>& active, const std::vector<int>& landmarks,
-                              const Eigen::Isometry3d& T_world_camera) const;
   void addKeyframe(Current& current, FollowResult& seen);
   struct Revisit;
   [[nodiscard]] std::optional<Revisit> verify(const Current& current, const PlaceIndex::Candidate& candidate);
+  [[nodiscard]] std::vector<Revisit> findRevisits(Current& current);
   void record(const Current& current, const FollowResult& seen, TrackingStatus status);
   int addNode(const Current& current, const Eigen::Isometry3d& T_world_camera, bool keyframe);
   void addEdge(int from, int to, EdgeKind kind, const FollowResult& seen, const Eigen::Isometry3d& T_world_to);
   void host(const Current& current, int node, const std::vector<Observation>& seen);
-  [[nodiscard]] int mainHost(const std::vector<Observation>& observations) const;
-  [[nodiscard]] std::vector<int> neighbourhood(int node, int rings) const;
-  [[nodiscard]] std::vector<int> localMap(const std::vector<int>& nodes, const Eigen::Isometry3d& T_world_camera) const;
+  [[nodiscard]] std::vector<int> landmarksAbout(int node, int rings, const Eigen::Isometry3d& T_world_camera) const;
   void adopt(const FollowResult& seen);
 
   camera::PinholeCamera camera_;
