@@ -117,7 +117,7 @@ class FrontEnd {
   bool borrowFromNeighbours(const Current& current, FollowResult& seen);
   void addKeyframe(Current& current, FollowResult& seen);
   struct Revisit;
-  [[nodiscard]] std::optional<Revisit> verify(const Current& current, const PlaceIndex::Candidate& candidate);
+  [[nodiscard]] std::optional<Revisit> verify(Current& current, const PlaceIndex::Candidate& candidate);
   [[nodiscard]] std::vector<Revisit> findRevisits(Current& current);
   void record(const Current& current, const FollowResult& seen, TrackingStatus status);
   int addNode(const Current& current, const Eigen::Isometry3d& T_world_camera, bool keyframe);

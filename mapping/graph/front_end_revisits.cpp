@@ -29,11 +29,12 @@ std::optional<FollowResult> FrontEnd::recover(Current& current) {
   return std::nullopt;
 }
 
-std::optional<FrontEnd::Revisit> FrontEnd::verify(const Current& current, const PlaceIndex::Candidate& candidate) {
+std::optional<FrontEnd::Revisit> FrontEnd::verify(Current& current, const PlaceIndex::Candidate& candidate) {
   const auto old = static_cast<std::size_t>(candidate.place);
-  const std::vector<FeatureMatch> matches = matchFeatures(result_.features[old], *current.features);
+  const Features& features = current.getFeatures(camera_, config_.features);
+  const std::vector<FeatureMatch> matches = matchFeatures(result_.features[old], features);
   const std::uint64_t seed = seed_ ^ (static_cast<std::uint64_t>(current.frame.index) << 32U) ^ static_cast<std::uint64_t>(candidate.place);
-  const RelativeMotion motion = estimateMotion(result_.features[old], *current.features, matches, camera_, config_.motion, seed);
+  const RelativeMotion motion = estimateMotion(result_.features[old], features, matches, camera_, config_.motion, seed);
   LoopAttempt attempt{candidate.place, current.frame.index,      candidate.votes, static_cast<int>(motion.inlier.size()),
                       motion.rms_px,   LoopCheck::kTooFewMatches};
   std::optional<Revisit> revisit;
