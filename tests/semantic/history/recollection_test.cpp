@@ -136,7 +136,7 @@ TEST_F(RecollectionTest, OfManyThingsOnlySomeAreKept) {
 }
 
 TEST_F(RecollectionTest, AReaderNeverKeepsWhatAnEventHasOutdated) {
-  constexpr int kEvents = 300;
+  constexpr int kEvents = 60;
   std::atomic<bool> done = false;
   std::vector<std::jthread> readers;
   for (int r = 0; r < 3; ++r) {
