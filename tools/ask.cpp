@@ -83,7 +83,7 @@ ExitCode ask(const AskOptions& options, const Session& session) {
   }
   const semantic::Answer answer = semantic::answerQuestion({&index, history ? &*history : nullptr, now_ns, robot}, options.question);
   if (session.options.json) {
-    std::cout << semantic::toJson(answer) << '\n';
+    std::cout << semantic::toJson(answer, 2) << '\n';
   } else {
     for (const std::string& correction : answer.corrected) {
       std::cerr << "oikos: taken for a typing error: " << correction << '\n';

@@ -77,7 +77,7 @@ struct Answer {
 /// Longer questions are refused.
 constexpr std::size_t kMostQuestionBytes = 2000;
 
-/// Metres, degrees, RFC 3339.
-[[nodiscard]] std::string toJson(const Answer& answer);
+/// Metres, degrees, RFC 3339; on one line if `indent` is negative.
+[[nodiscard]] std::string toJson(const Answer& answer, int indent = -1);
 
 }  // namespace oikos::semantic
