@@ -17,7 +17,8 @@ namespace oikos::model {
 struct Material {
   std::string name;
   Eigen::Vector3f color_rgb = Eigen::Vector3f::Constant(0.7F);
-  cv::Mat texture;  ///< CV_8UC3, BGR, multiplied with the colour; empty: none. Copies of a material share its pixels.
+  float gloss = 0.0F;  ///< 0 matt to 1 mirror or glass
+  cv::Mat texture;     ///< CV_8UC3, BGR, multiplied with the colour; empty: none. Copies of a material share its pixels.
 };
 
 /// Triangles over shared vertices, counter-clockwise seen from outside. The variable that holds one names the frame (`mesh_part`).
