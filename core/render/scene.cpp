@@ -38,8 +38,9 @@ struct Scene::Impl {
     ScenePart added;
     added.model = model;
     added.part = static_cast<int>(part);
-    for (const model::Material& material : mesh_part->materials) {
-      added.textures.push_back(pyramidOf(material.texture));
+    for (const model::Material& material : mesh_part->materials.empty() ? std::vector{model::Material{}} : mesh_part->materials) {
+      added.looks.push_back(
+          {material.color_rgb.unaryExpr([](float srgb) { return linearOf(srgb); }), material.gloss, pyramidOf(material.texture)});
     }
     added.mesh_part = std::move(mesh_part);
     parts.push_back(std::move(added));

@@ -17,9 +17,6 @@ constexpr float kShadowOffset_m = 2e-3F;
 constexpr float kShinePower = 60.0F;
 
 Eigen::Vector3f vertexColor(const model::TriangleMesh& mesh, const RayHit& hit) {
-  if (mesh.vertex_colors.empty()) {
-    return Eigen::Vector3f::Ones();
-  }
   const model::TriangleMesh::Triangle& corners = mesh.triangles[hit.triangle];
   const std::array<float, 3> weights = {1.0F - hit.u - hit.v, hit.u, hit.v};
   Eigen::Vector3f color = Eigen::Vector3f::Zero();
@@ -51,23 +48,19 @@ float texelDensity(const model::TriangleMesh& mesh, std::uint32_t triangle, cons
 Shader::Shader(const Scene& scene, const CameraRays& rays, const ViewConfig& config)
     : parts_(scene.parts()), embree_(scene.embree()), config_(config), pixel_size_(static_cast<float>(rays.pixelSize())) {}
 
-const model::Material& Shader::materialAt(const SurfacePoint& surface) const {
-  return parts_[static_cast<std::size_t>(surface.hit.part)].mesh_part->materialOf(surface.hit.triangle);
-}
-
 Eigen::Vector3f Shader::albedo(const SurfacePoint& surface) const {
   const ScenePart& part = parts_[static_cast<std::size_t>(surface.hit.part)];
   const model::TriangleMesh& mesh = *part.mesh_part;
-  const model::Material& material = mesh.materialOf(surface.hit.triangle);
-  Eigen::Vector3f color = material.color_rgb.unaryExpr([](float srgb) { return linearOf(srgb); });
-  color = color.cwiseProduct(vertexColor(mesh, surface.hit));
-  const std::size_t index = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials[surface.hit.triangle];
-  const TexturePyramid* const texture = index < part.textures.size() ? part.textures[index].get() : nullptr;
-  if (texture != nullptr && !mesh.texture_coordinates.empty()) {
+  const SurfaceLook& look = lookAt(surface);
+  Eigen::Vector3f color = look.color_rgb;
+  if (!mesh.vertex_colors.empty()) {
+    color = color.cwiseProduct(vertexColor(mesh, surface.hit));
+  }
+  if (look.texture && !mesh.texture_coordinates.empty()) {
     const float facing = std::max(0.1F, surface.normal_map.dot(surface.to_camera_map));
     const float footprint_m = surface.depth_m * pixel_size_ / std::sqrt(facing);
-    const float footprint_px = footprint_m * texelDensity(mesh, surface.hit.triangle, *texture);
-    color = color.cwiseProduct(texture->at(textureCoordinate(mesh, surface.hit), footprint_px));
+    const float footprint_px = footprint_m * texelDensity(mesh, surface.hit.triangle, *look.texture);
+    color = color.cwiseProduct(look.texture->at(textureCoordinate(mesh, surface.hit), footprint_px));
   }
   return color;
 }
@@ -86,7 +79,7 @@ void Shader::shade(const SurfacePacket& surfaces, ColorPacket& colors_rgb) const
   for (std::size_t i = 0; i < kPacketSize; ++i) {
     colors_rgb[i] = surfaces[i].hit.part < 0
                         ? config_.background_rgb
-                        : Eigen::Vector3f(albedo(surfaces[i]).cwiseProduct(light_rgb[i]) + materialAt(surfaces[i]).gloss * shine_rgb[i]);
+                        : Eigen::Vector3f(albedo(surfaces[i]).cwiseProduct(light_rgb[i]) + gloss(surfaces[i]) * shine_rgb[i]);
   }
 }
 
@@ -109,7 +102,7 @@ void Shader::addLamp(const PointLight& lamp, const SurfacePacket& surfaces, Colo
     const float distance_sq = std::max(0.01F, shadows.direction_map[i].squaredNorm());
     const Eigen::Vector3f to_lamp = shadows.direction_map[i] / std::sqrt(distance_sq);
     light_rgb[i] += lamp.intensity_rgb * (to_lamp.dot(surfaces[i].normal_map) / distance_sq);
-    if (materialAt(surfaces[i]).gloss > 0.0F) {
+    if (gloss(surfaces[i]) > 0.0F) {
       const float mirrored = std::max(0.0F, (to_lamp + surfaces[i].to_camera_map).normalized().dot(surfaces[i].normal_map));
       shine_rgb[i] += lamp.intensity_rgb * (std::pow(mirrored, kShinePower) / distance_sq);
     }

@@ -19,9 +19,12 @@ class Shader {
   void shade(const SurfacePacket& surfaces, ColorPacket& colors_rgb) const;
   /// Linear RGB that the surface throws back of white light.
   [[nodiscard]] Eigen::Vector3f albedo(const SurfacePoint& surface) const;
-  [[nodiscard]] const model::Material& materialAt(const SurfacePoint& surface) const;
+  [[nodiscard]] float gloss(const SurfacePoint& surface) const { return lookAt(surface).gloss; }
 
  private:
+  [[nodiscard]] const SurfaceLook& lookAt(const SurfacePoint& surface) const {
+    return parts_[static_cast<std::size_t>(surface.hit.part)].lookOf(surface.hit.triangle);
+  }
   void addLamp(const PointLight& lamp, const SurfacePacket& surfaces, ColorPacket& light_rgb, ColorPacket& shine_rgb) const;
 
   const std::vector<ScenePart>& parts_;

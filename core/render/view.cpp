@@ -91,7 +91,7 @@ class Picture {
     }
     if (config_.with_surface) {
       view_.albedo.at<float>(pixel) = is_hit ? shader_.albedo(surface).mean() : 0.0F;
-      view_.gloss.at<float>(pixel) = is_hit ? shader_.materialAt(surface).gloss : 0.0F;
+      view_.gloss.at<float>(pixel) = is_hit ? shader_.gloss(surface) : 0.0F;
     }
     if (config_.with_color) {
       surfaces_[indexOf(pixel.x, pixel.y)] = surface;
