@@ -74,6 +74,13 @@ struct Property {
   bool operator==(const Property&) const = default;
 };
 
+/// A piece that is described by its dimensions instead of a model file (core/model/furniture).
+struct Shape {
+  std::string kind;
+  std::vector<Property> dimensions;  ///< as they are written
+  bool operator==(const Shape&) const = default;
+};
+
 /// Where a small object is, or usually is.
 struct Placement {
   std::string parent;  ///< id of an object, part or room
@@ -99,6 +106,7 @@ struct SmallObject {
   Relation relation = Relation::kOn;
   Pose T_parent_object;
   std::string model;  ///< file below the home; empty: none
+  std::optional<CopyOnWrite<Shape>> shape;
   std::optional<Box> box_model;
   std::vector<Placement> default_places;  ///< where it is usually found
   bool graspable = false;
@@ -190,6 +198,7 @@ struct LargeObject {
   Movability movability = Movability::kFixed;
   bool graspable = false;
   std::string model;
+  std::optional<CopyOnWrite<Shape>> shape;
   std::vector<Box> boxes_object;
   std::vector<std::string> affordances;
   std::vector<ParkingPose> parking_poses;

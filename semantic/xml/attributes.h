@@ -22,6 +22,8 @@ class Attributes {
   Attributes(const XmlElement& element, std::vector<Finding>& findings) : element_(element), findings_(findings) {}
 
   [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const;
+  /// Name and value of each, in their order.
+  [[nodiscard]] const std::vector<std::pair<std::string_view, std::string_view>>& all() const { return element_.attributes; }
   [[nodiscard]] std::string text(std::string_view name) const { return std::string(find(name).value_or("")); }
   [[nodiscard]] std::optional<double> number(std::string_view name) const;
   [[nodiscard]] std::optional<double> length(std::string_view name) const;  ///< not negative

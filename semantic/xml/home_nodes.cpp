@@ -59,6 +59,14 @@ XmlNode boxNode(const Box& box) {
   return leaf("box", {{"center", poseText(box.center)}, {"size_m", vectorText(box.size_m)}});
 }
 
+XmlNode shapeNode(const Shape& shape) {
+  XmlNode node = leaf("shape", {{"kind", shape.kind}});
+  for (const Property& dimension : shape.dimensions) {
+    node.attributes.emplace_back(dimension.name, dimension.value);
+  }
+  return node;
+}
+
 XmlNode graspNode(const GraspingPoint& point) {
   XmlNode node = leaf("graspingPoint", {});
   addText(node.attributes, "part", point.part.value);
@@ -168,6 +176,9 @@ void write(const SmallObject& object, XmlNode& node) {
   for (const Eigen::Vector3d& axis : object.grasp.symmetry_axes_model) {
     node.children.push_back(leaf("symmetryAxis", {{"direction", vectorText(axis)}}));
   }
+  if (object.shape) {
+    node.children.push_back(shapeNode(*object.shape));
+  }
   if (object.box_model) {
     node.children.push_back(boxNode(*object.box_model));
   }
@@ -188,6 +199,9 @@ void write(const LargeObject& object, XmlNode& node) {
   addText(a, "model", object.model);
   a.emplace_back("movability", base::toString(object.movability));
   a.emplace_back("graspable", flagText(object.graspable));
+  if (object.shape) {
+    node.children.push_back(shapeNode(*object.shape));
+  }
   std::transform(object.boxes_object.begin(), object.boxes_object.end(), std::back_inserter(node.children), boxNode);
   if (object.articulation) {
     write(*object.articulation, node);

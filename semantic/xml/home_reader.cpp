@@ -63,6 +63,7 @@ class Builder {
         {"handle", &Builder::handle},
         {"knob", &Builder::knob},
         {"state", &Builder::knobState},
+        {"shape", &Builder::shape},
         {"box", &Builder::box},
         {"affordance", &Builder::affordance},
         {"parkingPose", &Builder::parkingPose},
@@ -255,6 +256,23 @@ class Builder {
     if (knob_ != nullptr) {
       knob_->states.push_back({a.text("name"), a.number("angle_deg").value_or(0.0) * kRadPerDeg});
     }
+  }
+
+  void shape(const Attributes& a) {
+    std::optional<CopyOnWrite<Shape>>* const place = small_ != nullptr ? &small_->shape : large_ != nullptr ? &large_->shape : nullptr;
+    if (place == nullptr) {
+      return;
+    }
+    if (*place) {
+      findings.push_back({Severity::kError, element_->line, "element 'shape'", "a second one of the same piece", "one shape a piece"});
+    }
+    Shape shape{a.text("kind"), {}};
+    for (const auto& [name, value] : a.all()) {
+      if (name != "kind") {
+        shape.dimensions.push_back({std::string(name), std::string(value)});
+      }
+    }
+    *place = std::move(shape);
   }
 
   void box(const Attributes& a) {

@@ -68,6 +68,9 @@ class Maker {
     object.T_parent_object = pose();
     object.model = coin() ? "models/cup.obj" : "";
     if (coin()) {
+      object.shape = Shape{"cup", some(2, [&] { return Property{"size" + std::to_string(next_id_++) + "_m", coin() ? "0.1" : text()}; })};
+    }
+    if (coin()) {
       object.box_model = box();
     }
     do {
@@ -156,6 +159,9 @@ class Maker {
     object.movability = choice<Movability>();
     object.graspable = coin();
     object.model = coin() ? "models/a b.glb" : "";
+    if (coin()) {
+      object.shape = Shape{"cabinet", {{"width_m", "0.8"}, {"label", text()}}};
+    }
     object.boxes_object = some(2, [&] { return box(); });
     object.affordances = some(2, [&] { return std::string(coin() ? "sittable" : "own_affordance"); });
     object.parking_poses = some(2, [&] { return ParkingPose{pose(), false}; });
