@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/config_rules.h"
-
 namespace oikos::simulate {
 
 namespace {
@@ -60,15 +58,6 @@ Eigen::Isometry3d FloorPose::T_map_base() const {
   return Eigen::Translation3d(position_m.x(), position_m.y(), 0.0) * Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ());
 }
 
-std::vector<std::string> RobotMotion::validate() const {
-  base::ConfigRules rules;
-  rules.positive("path.speed_mps", speed_mps);
-  rules.positive("path.acceleration_mps2", acceleration_mps2);
-  rules.positive("path.turn_rate_dps", turn_rate_radps);
-  rules.positive("path.turn_acceleration_dps2", turn_acceleration_radps2);
-  return rules.problems();
-}
-
 RobotPath::RobotPath(const FloorPose& start, const std::vector<Waypoint>& waypoints, const RobotMotion& motion) : end_(start) {
   constexpr double kThere_m = 1e-6;
   for (const Waypoint& waypoint : waypoints) {
@@ -104,10 +93,10 @@ FloorPose RobotPath::at(double time_s) const {
   if (pieces_.empty() || time_s >= end_s_) {
     return end_;
   }
-  const auto next = std::upper_bound(pieces_.begin(), pieces_.end(), time_s, [](double t, const Piece& piece) { return t < piece.start_s; });
+  const auto next =
+      std::upper_bound(pieces_.begin(), pieces_.end(), time_s, [](double t, const Piece& piece) { return t < piece.start_s; });
   const Piece& piece = next == pieces_.begin() ? pieces_.front() : *std::prev(next);
-  const double done =
-      Trapezoid(std::abs(piece.length), piece.rate, piece.acceleration).doneAfter(std::max(0.0, time_s - piece.start_s));
+  const double done = Trapezoid(std::abs(piece.length), piece.rate, piece.acceleration).doneAfter(std::max(0.0, time_s - piece.start_s));
   return advanced(piece.from, piece.is_turn, std::copysign(done, piece.length));
 }
 

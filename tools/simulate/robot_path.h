@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace oikos::simulate {
@@ -18,8 +17,8 @@ struct FloorPose {
 
 struct Waypoint {
   Eigen::Vector2d position_map = Eigen::Vector2d::Zero();
-  std::optional<double> yaw_rad;   ///< to turn to once there
-  double look_around_rad = 0.0;    ///< to turn about there first, to the left if positive
+  std::optional<double> yaw_rad;  ///< to turn to once there
+  double look_around_rad = 0.0;   ///< to turn about there first, to the left if positive
 };
 
 struct RobotMotion {
@@ -27,7 +26,6 @@ struct RobotMotion {
   double acceleration_mps2 = 0.4;
   double turn_rate_radps = 0.7;
   double turn_acceleration_radps2 = 1.4;
-  [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 /// The way of a robot with two driven wheels: it turns on the spot towards each waypoint, then drives there in a straight line, with a

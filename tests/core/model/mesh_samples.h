@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 

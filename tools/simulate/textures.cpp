@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Value noise on a lattice that repeats (Perlin, "An Image Synthesizer", SIGGRAPH 1985), stretched, warped and mixed.
+#include "tools/simulate/textures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "core/camera/sensor/hash_noise.h"
+
+namespace oikos::simulate {
+
+namespace {
+
+/// Numbers of a texture by where and what for.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : seed_(camera::mixBits(seed + 0x9e3779b97f4a7c15U)) {}
+  /// In [0, 1).
+  [[nodiscard]] double at(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) const {
+    return camera::toUniform(
+        camera::mixBits(camera::mixBits(camera::mixBits(seed_ + a) + b * 0x51ed270b35ae5b11U) + c * 0xd1342543de82ef95U));
+  }
+  [[nodiscard]] double next() { return at(1'000'000 + used_++); }
+  [[nodiscard]] double between(double low, double high) { return low + (high - low) * next(); }
+  [[nodiscard]] int upTo(int most) { return static_cast<int>(next() * (most + 1)); }
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t used_ = 0;
+};
+
+int wrapped(int i, int period) {
+  return ((i % period) + period) % period;
+}
+
+/// Smooth between the numbers of a lattice; repeats after `periods` cells. x and y in cells; in [0, 1].
+double valueNoise(const Dice& dice, double x, double y, const cv::Size& periods, std::uint64_t use) {
+  const int left = static_cast<int>(std::floor(x));
+  const int top = static_cast<int>(std::floor(y));
+  const auto smooth = [](double t) { return t * t * (3.0 - 2.0 * t); };
+  const double u = smooth(x - left);
+  const double v = smooth(y - top);
+  const auto number = [&](int column, int row) {
+    return dice.at(static_cast<std::uint64_t>(wrapped(column, periods.width)), static_cast<std::uint64_t>(wrapped(row, periods.height)),
+                   use);
+  };
+  return (1.0 - v) * ((1.0 - u) * number(left, top) + u * number(left + 1, top)) +
+         v * ((1.0 - u) * number(left, top + 1) + u * number(left + 1, top + 1));
+}
+
+/// Octaves of it over the unit square, in [0, 1].
+double fractalNoise(const Dice& dice, double x, double y, const cv::Size& cells, std::uint64_t use) {
+  double sum = 0.0;
+  double weight = 0.5;
+  cv::Size periods = cells;
+  for (std::uint64_t octave = 0; octave < 4; ++octave) {
+    sum += weight * valueNoise(dice, x * periods.width, y * periods.height, periods, use * 16 + octave);
+    weight *= 0.5;
+    periods *= 2;
+  }
+  return sum / 0.9375;
+}
+
+template <class Shade>
+cv::Mat paintShades(int size_px, const Shade& shade) {
+  cv::Mat image(size_px, size_px, CV_8UC3);
+  for (int v = 0; v < size_px; ++v) {
+    for (int u = 0; u < size_px; ++u) {
+      const double value = std::clamp(shade((u + 0.5) / size_px, (v + 0.5) / size_px), 0.0, 1.0);
+      const auto byte = static_cast<std::uint8_t>(std::lround(255.0 * value));
+      image.at<cv::Vec3b>(v, u) = {byte, byte, byte};
+    }
+  }
+  return image;
+}
+
+/// Grain along x: rings that are cut lengthwise.
+double grain(const Dice& dice, double x, double y, std::uint64_t use) {
+  const double bend = fractalNoise(dice, x, y, {2, 3}, use);
+  const double ring = 0.5 + 0.5 * std::sin(2.0 * std::numbers::pi * (6.0 * y + 3.0 * bend));
+  const double fibre = fractalNoise(dice, x, y, {6, 96}, use + 1);
+  return 0.72 + 0.14 * ring + 0.2 * (fibre - 0.5);
+}
+
+cv::Mat paintPlanks(const Dice& dice, int size_px) {
+  constexpr int kRows = 8;
+  return paintShades(size_px, [&](double x, double y) {
+    const int row = static_cast<int>(y * kRows);
+    const double start = dice.at(static_cast<std::uint64_t>(row), 7);
+    const double along = x * 2.0 + start;
+    const auto plank = static_cast<std::uint64_t>(wrapped(static_cast<int>(std::floor(along)), 2));
+    const double in_row = y * kRows - row;
+    const double in_plank = along - std::floor(along);
+    const bool is_gap = in_row < 0.02 || in_plank < 0.004;
+    const double tone = 0.8 + 0.35 * (dice.at(static_cast<std::uint64_t>(row), plank, 8) - 0.5);
+    return is_gap ? 0.3 : tone * grain(dice, x, y, 100 + 2 * static_cast<std::uint64_t>(row)) / 0.85;
+  });
+}
+
+cv::Mat paintTiles(const Dice& dice, int size_px) {
+  constexpr int kTiles = 5;
+  return paintShades(size_px, [&](double x, double y) {
+    const double in_x = x * kTiles - std::floor(x * kTiles);
+    const double in_y = y * kTiles - std::floor(y * kTiles);
+    if (std::min(in_x, in_y) < 0.025) {
+      return 0.55 + 0.1 * fractalNoise(dice, x, y, {40, 40}, 3);
+    }
+    const auto column = static_cast<std::uint64_t>(x * kTiles);
+    const auto row = static_cast<std::uint64_t>(y * kTiles);
+    const double cloud = fractalNoise(dice, x, y, {10, 10}, 4);
+    const double vein = std::abs(fractalNoise(dice, x, y, {7, 7}, 5) - 0.5) < 0.012 ? 0.2 : 0.0;
+    return 0.82 + 0.14 * (dice.at(column, row, 6) - 0.5) + 0.18 * (cloud - 0.5) - vein;
+  });
+}
+
+cv::Mat paintWallpaper(const Dice& dice, int size_px) {
+  return paintShades(size_px, [&](double x, double y) {
+    // Leaves that are scattered about a lattice, each turned in its own way.
+    constexpr int kCells = 6;
+    double shade = 0.93 + 0.05 * (fractalNoise(dice, x, y, {32, 32}, 2) - 0.5);
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int column = static_cast<int>(std::floor(x * kCells)) + dx;
+        const int row = static_cast<int>(std::floor(y * kCells)) + dy;
+        const auto a = static_cast<std::uint64_t>(wrapped(column, kCells));
+        const auto b = static_cast<std::uint64_t>(wrapped(row, kCells));
+        const double across = x * kCells - column - 0.2 - 0.6 * dice.at(a, b, 20);
+        const double down = y * kCells - row - 0.2 - 0.6 * dice.at(a, b, 21);
+        const double turn = 2.0 * std::numbers::pi * dice.at(a, b, 22);
+        const double length = 0.2 + 0.25 * dice.at(a, b, 23);
+        const double p = (across * std::cos(turn) + down * std::sin(turn)) / length;
+        const double q = (-across * std::sin(turn) + down * std::cos(turn)) / (0.4 * length);
+        if (p * p + q * q < 1.0) {
+          shade = std::abs(q) < 0.1 ? 0.9 : 0.66 + 0.16 * dice.at(a, b, 24);
+        }
+      }
+    }
+    return shade;
+  });
+}
+
+cv::Scalar colorOf(Dice& dice) {
+  return {dice.between(20, 245), dice.between(20, 245), dice.between(20, 245)};
+}
+
+/// Coloured patches, curves and dots on a ground, in a frame.
+cv::Mat paintPainting(Dice& dice, int size_px) {
+  cv::Mat image(size_px, size_px, CV_8UC3, colorOf(dice));
+  const auto point = [&] { return cv::Point(dice.upTo(size_px), dice.upTo(size_px)); };
+  for (int i = 0; i < 14; ++i) {
+    const std::vector<cv::Point> corners = {point(), point(), point()};
+    cv::fillConvexPoly(image, corners, colorOf(dice), cv::LINE_AA);
+    cv::circle(image, point(), dice.upTo(size_px / 9) + 2, colorOf(dice), dice.upTo(1) == 0 ? -1 : 3, cv::LINE_AA);
+    cv::line(image, point(), point(), colorOf(dice), 1 + dice.upTo(size_px / 60), cv::LINE_AA);
+    cv::ellipse(image, point(), {4 + dice.upTo(size_px / 6), 3 + dice.upTo(size_px / 12)}, 360.0 * dice.next(), 0.0,
+                90.0 + 270.0 * dice.next(), colorOf(dice), 2, cv::LINE_AA);
+  }
+  cv::rectangle(image, {0, 0, size_px, size_px}, colorOf(dice) * 0.3, size_px / 14);
+  return image;
+}
+
+/// A carton or a cover: bands of colour, a large word, a picture and lines of small print.
+cv::Mat paintPrint(Dice& dice, int size_px) {
+  cv::Mat image(size_px, size_px, CV_8UC3, colorOf(dice));
+  const auto part = [&](double share) { return static_cast<int>(share * size_px); };
+  cv::rectangle(image, {0, part(dice.between(0.05, 0.5)), size_px, part(dice.between(0.15, 0.35))}, colorOf(dice), -1);
+  const int picture = part(dice.between(0.2, 0.36));
+  Dice motif(static_cast<std::uint64_t>(dice.upTo(1'000'000)));
+  cv::Mat small;
+  cv::resize(paintPainting(motif, 64), small, {picture, picture}, 0.0, 0.0, cv::INTER_AREA);
+  small.copyTo(image(cv::Rect(part(dice.between(0.05, 0.5)), part(dice.between(0.45, 0.6)), picture, picture)));
+  std::string word;
+  for (int i = 4 + dice.upTo(3); i > 0; --i) {
+    word += static_cast<char>('A' + dice.upTo(25));
+  }
+  const cv::Scalar ink = colorOf(dice);
+  cv::putText(image, word, {part(0.06), part(dice.between(0.22, 0.4))},
+              dice.upTo(1) == 0 ? cv::FONT_HERSHEY_DUPLEX : cv::FONT_HERSHEY_TRIPLEX, size_px / 190.0, ink, std::max(1, size_px / 90),
+              cv::LINE_AA);
+  for (int line = 0; line < 9; ++line) {
+    for (int x = part(0.06); x < part(0.92);) {
+      const int width = 2 + dice.upTo(size_px / 16);
+      const int y = part(0.72 + 0.028 * line);
+      cv::line(image, {x, y}, {std::min(x + width, part(0.94)), y}, ink, 1, cv::LINE_AA);
+      x += width + 3;
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+cv::Mat makeTexture(TextureKind kind, std::uint64_t seed, int size_px) {
+  Dice dice(seed * enumTable(TextureKind{}).size() + static_cast<std::uint64_t>(kind));
+  switch (kind) {
+    case TextureKind::kWood:
+      return paintShades(size_px, [&](double x, double y) { return grain(dice, y, x, 1); });
+    case TextureKind::kPlanks:
+      return paintPlanks(dice, size_px);
+    case TextureKind::kTiles:
+      return paintTiles(dice, size_px);
+    case TextureKind::kPlaster:
+      return paintShades(size_px, [&](double x, double y) {
+        return 0.9 + 0.12 * (fractalNoise(dice, x, y, {24, 24}, 1) - 0.5) + 0.1 * (fractalNoise(dice, x, y, {3, 3}, 2) - 0.5);
+      });
+    case TextureKind::kWallpaper:
+      return paintWallpaper(dice, size_px);
+    case TextureKind::kFabric:
+      return paintShades(size_px, [&](double x, double y) {
+        const double weave = 0.5 + 0.25 * std::sin(2.0 * std::numbers::pi * 48.0 * x) + 0.25 * std::sin(2.0 * std::numbers::pi * 48.0 * y);
+        return 0.72 + 0.14 * (weave - 0.5) + 0.34 * (fractalNoise(dice, x, y, {9, 9}, 1) - 0.5) +
+               0.2 * (fractalNoise(dice, x, y, {64, 64}, 2) - 0.5);
+      });
+    case TextureKind::kStone:
+      return paintShades(size_px, [&](double x, double y) {
+        const double speck = valueNoise(dice, x * 128.0, y * 128.0, {128, 128}, 9);
+        return 0.75 + 0.4 * (fractalNoise(dice, x, y, {12, 12}, 1) - 0.5) + (speck > 0.86 ? 0.2 : speck < 0.12 ? -0.3 : 0.0);
+      });
+    case TextureKind::kBrushedMetal:
+      return paintShades(size_px, [&](double x, double y) { return 0.86 + 0.14 * (fractalNoise(dice, x, y, {3, 128}, 1) - 0.5); });
+    case TextureKind::kPainting:
+      return paintPainting(dice, size_px);
+    case TextureKind::kPrint:
+      return paintPrint(dice, size_px);
+  }
+  return {};
+}
+
+}  // namespace oikos::simulate
