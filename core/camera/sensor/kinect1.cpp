@@ -187,7 +187,8 @@ void dropUnseen(const IdealView& view, const Kinect1Config& config, int v, RowSc
     const float signal = reflectivity[u] * (1.0F - gloss[u]) * cosine / depth_sq * per_signal;  // a mirror sends nothing back
     const float weakest = std::min(signal, cosine * per_cosine);
     const bool dazzles = gloss[u] * pow128(cosine) > max_highlight * depth_sq;
-    const bool is_seen = weakest > 1.0F + softness * row.signal[i] && !dazzles;
+    const float threshold = std::max(1.0F + softness * row.signal[i], 0.0F);
+    const bool is_seen = weakest > threshold && !dazzles;
     row.disparity_px[i] = is_seen ? row.disparity_px[i] : 0.0F;
   }
 }

@@ -90,7 +90,7 @@ class TimeOfFlight {
     const float z_m = row.depth_m[pixel.x];
     const float signal = row.brightness(pixel.x) * cosine / (z_m * z_m) / static_cast<float>(config_.min_signal);
     const float noise = toGaussian(table_, signal_.bits(counter(pixel)));
-    const float threshold = 1.0F + static_cast<float>(config_.dropout_softness) * noise;
+    const float threshold = std::max(1.0F + static_cast<float>(config_.dropout_softness) * noise, 0.0F);
     return signal > threshold && cosine / static_cast<float>(config_.min_cosine) > threshold;
   }
 

@@ -14,12 +14,26 @@ constexpr int kMajority = kMatchWindow_px * kMatchWindow_px / 2 + 1;
 
 using Window = std::array<std::int16_t, kMatchWindow_px * kStride>;
 
+/// Which of a vector's numbers belong to the window, as bits, so that it is read at once.
+struct Lanes {
+  std::int16_t keep[kStride] = {};
+  std::int16_t otherwise[kStride] = {};
+};
+constexpr Lanes kLanes = [] {
+  Lanes lanes;
+  for (int i = 0; i < kStride; ++i) {
+    lanes.keep[i] = i < kMatchWindow_px ? -1 : 0;
+    lanes.otherwise[i] = i < kMatchWindow_px ? 0 : kNoDisparity;
+  }
+  return lanes;
+}();
+
 void copyWindow(const cv::Mat& disparities, int u, int v, Window& window) {
   auto* to = window.data();
   for (int row = 0; row < kMatchWindow_px; ++row) {
     const auto* from = disparities.ptr<std::int16_t>(v - kMatchRadius_px + row) + u - kMatchRadius_px;
     for (int i = 0; i < kStride; ++i) {
-      to[i] = i < kMatchWindow_px ? from[i] : kNoDisparity;
+      to[i] = static_cast<std::int16_t>((from[i] & kLanes.keep[i]) | kLanes.otherwise[i]);
     }
     to += kStride;
   }
@@ -99,18 +113,15 @@ void SmoothWindows::fill(const cv::Mat& disparities, int v) {
   std::int16_t* __restrict of_low = low.data();
   std::int16_t* __restrict of_high = high.data();
   std::int32_t* __restrict of_sum = sum.data();
-  for (int u = kMatchRadius_px; u < width - kMatchRadius_px; ++u) {
-    std::int16_t lowest = kMaxDisparity;
-    std::int16_t highest = kNoDisparity;
-    std::int32_t total = 0;
-    for (int c = u - kMatchRadius_px; c <= u + kMatchRadius_px; ++c) {
-      lowest = std::min(lowest, of_column_low[c]);
-      highest = std::max(highest, of_column_high[c]);
-      total += of_column_sum[c];
+  std::fill(low.begin(), low.end(), kMaxDisparity);
+  std::fill(high.begin(), high.end(), kNoDisparity);
+  std::fill(sum.begin(), sum.end(), 0);
+  for (int shift = -kMatchRadius_px; shift <= kMatchRadius_px; ++shift) {
+    for (int u = kMatchRadius_px; u < width - kMatchRadius_px; ++u) {
+      of_low[u] = std::min(of_low[u], of_column_low[u + shift]);
+      of_high[u] = std::max(of_high[u], of_column_high[u + shift]);
+      of_sum[u] += of_column_sum[u + shift];
     }
-    of_low[u] = lowest;
-    of_high[u] = highest;
-    of_sum[u] = total;
   }
 }
 
