@@ -57,22 +57,39 @@ struct FlowRow {
   std::vector<float> begin_u, begin_v, end_u, end_v;
 };
 
-/// The mean over the flow's samples, which lie in the middle of equal parts of it.
-Eigen::Array4f sampleFlow(const LightSampler& light, const FlowRow& flow, std::size_t i, int max_samples) {
+/// The samples of a flow lie in the middle of equal parts of it, spread a little, so that their deviation is that of the whole flow.
+struct SampleSpread {
+  explicit SampleSpread(int count)
+      : part(1.0F / static_cast<float>(count)), step(count > 1 ? part / std::sqrt(1.0F - part * part) : 0.0F) {}
+  float part;
+  float step;  ///< share of the flow from one sample to the next
+};
+
+std::vector<SampleSpread> makeSpreads(int max_samples) {
+  std::vector<SampleSpread> spreads;
+  for (int count = 1; count <= max_samples; ++count) {
+    spreads.emplace_back(count);
+  }
+  return spreads;
+}
+
+/// The mean over the flow's samples.
+Eigen::Array4f sampleFlow(const LightSampler& light, const FlowRow& flow, std::size_t i, const std::vector<SampleSpread>& spreads) {
   const float begin_u = light.clampU(flow.begin_u[i]);
   const float begin_v = light.clampV(flow.begin_v[i]);
   const float across = light.clampU(flow.end_u[i]) - begin_u;
   const float down = light.clampV(flow.end_v[i]) - begin_v;
   const float length_px = std::max(std::abs(across), std::abs(down));
   const int wanted = length_px < kUnseenFlow_px ? 1 : std::max(2, 1 + static_cast<int>(length_px / kSampleSpacing_px));
-  const int samples = std::min(max_samples, wanted);
-  const float part = 1.0F / static_cast<float>(samples);
+  const int count = std::min(static_cast<int>(spreads.size()), wanted);
+  const SampleSpread& spread = spreads[static_cast<std::size_t>(count - 1)];
+  const float first = 0.5F - 0.5F * spread.step * static_cast<float>(count - 1);
   Eigen::Array4f sum = Eigen::Array4f::Zero();
-  for (int k = 0; k < samples; ++k) {
-    const float share = (static_cast<float>(k) + 0.5F) * part;
+  for (int k = 0; k < count; ++k) {
+    const float share = first + spread.step * static_cast<float>(k);
     sum += light.sample(begin_u + share * across, begin_v + share * down);
   }
-  return sum * part;
+  return sum * spread.part;
 }
 
 }  // namespace
@@ -129,8 +146,9 @@ void ShutterWarp::fillRow(const cv::Mat& light, const cv::Mat& depth_m, int v, f
   RowProjection(camera_, T_mid_row * T_middle_begin_, v).fill(depths_m, camera_.width, flow.begin_u.data(), flow.begin_v.data());
   RowProjection(camera_, T_mid_row * T_middle_end_, v).fill(depths_m, camera_.width, flow.end_u.data(), flow.end_v.data());
   const LightSampler sampler(light);
+  const std::vector<SampleSpread> spreads = makeSpreads(max_samples_);
   for (int u = 0; u < camera_.width; ++u) {
-    Eigen::Map<Eigen::Array4f>(row + 4 * u) = sampleFlow(sampler, flow, static_cast<std::size_t>(u), max_samples_);
+    Eigen::Map<Eigen::Array4f>(row + 4 * u) = sampleFlow(sampler, flow, static_cast<std::size_t>(u), spreads);
   }
 }
 
