@@ -148,12 +148,16 @@ int FurnitureBuilder::addPart(const std::string& name, const ModelJoint& joint) 
   return part;
 }
 
+int FurnitureBuilder::addTurningPart(const std::string& name, const Hinge& hinge) {
+  return addPart(name, {.name = name + "_hinge",
+                        .type = MotionType::kRevolute,
+                        .T_parent_joint = translationTo(hinge.origin_model),
+                        .axis_joint = hinge.axis_model,
+                        .upper = hinge.opening_rad});
+}
+
 int FurnitureBuilder::addHingedPart(const HingedFront& front) {
-  return addPart(front.name, {.name = front.name + "_hinge",
-                              .type = MotionType::kRevolute,
-                              .T_parent_joint = translationTo(hingeOrigin(front.closed_model, front.hinge)),
-                              .axis_joint = turningAxis(front.hinge),
-                              .upper = front.opening_rad});
+  return addTurningPart(front.name, {hingeOrigin(front.closed_model, front.hinge), turningAxis(front.hinge), front.opening_rad});
 }
 
 int FurnitureBuilder::addSlidingPart(const std::string& name, const Eigen::Vector3d& origin_model, double travel_m) {

@@ -40,6 +40,13 @@ struct HingedFront {
   double opening_rad = 1.9;
 };
 
+/// Any other turning joint.
+struct Hinge {
+  Eigen::Vector3d origin_model;
+  Eigen::Vector3d axis_model;
+  double opening_rad;
+};
+
 /// `centre_model` lies on the face that the handle stands on.
 struct HandlePlace {
   std::string name;
@@ -77,6 +84,7 @@ class FurnitureBuilder {
   void addShape(int part, const TriangleMesh& shape, const Eigen::Vector3d& origin_model, const Finish& finish);
   void addShape(int part, const TriangleMesh& shape, const Eigen::Isometry3d& T_model_shape, const Finish& finish);
 
+  [[nodiscard]] int addTurningPart(const std::string& name, const Hinge& hinge);
   [[nodiscard]] int addHingedPart(const HingedFront& front);
   [[nodiscard]] int addSlidingPart(const std::string& name, const Eigen::Vector3d& origin_model, double travel_m);  ///< along +x
   void addHandle(int part, const HandlePlace& place, const Finish& finish);
