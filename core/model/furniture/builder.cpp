@@ -18,11 +18,6 @@ constexpr double kKnobRadius_m = 0.014;
 constexpr double kRecessedHeight_m = 0.03;
 constexpr double kDialLength_m = 0.025;
 
-Material makeMaterial(const Finish& finish) {
-  const auto channel = [&](int shift) { return static_cast<float>((finish.rgb >> shift) & 0xFFU) / 255.0F; };
-  return {.name = finish.name, .color_rgb = {channel(16), channel(8), channel(0)}, .texture = {}};
-}
-
 /// The material of this name, added if the mesh has none.
 std::uint32_t findOrAddMaterial(TriangleMesh& mesh, const Finish& finish) {
   const auto found =
@@ -112,7 +107,7 @@ void FurnitureBuilder::addBox(int part, const Eigen::AlignedBox3d& box_model, co
 void FurnitureBuilder::addCushion(int part, const Eigen::AlignedBox3d& box_model, const Finish& finish) {
   const double radius_m = std::min(0.05, 0.35 * box_model.sizes().minCoeff());
   const TriangleMesh shape =
-      makeRoundedBox({.size_m = box_model.sizes().cast<float>(), .radius_m = static_cast<float>(radius_m), .steps = 3});
+      makeRoundedBox({.size_m = box_model.sizes().cast<float>(), .radius_m = static_cast<float>(radius_m), .steps = 2});
   addShape(part, shape, box_model.center(), finish);
 }
 

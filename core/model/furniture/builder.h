@@ -2,11 +2,11 @@
 // Puts a piece of furniture together as it stands closed: everything is given in the model's frame and lands in its part's.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/model/articulated_model.h"
+#include "core/model/finish.h"
 #include "core/model/furniture/options.h"
 
 namespace oikos::model {
@@ -17,12 +17,6 @@ struct Span {
 };
 
 [[nodiscard]] Eigen::AlignedBox3d boxOf(const Span& x, const Span& y, const Span& z);
-
-/// A material by its name, and its colour as 0xRRGGBB (sRGB).
-struct Finish {
-  std::string name;
-  std::uint32_t rgb = 0xB0B0B0;
-};
 
 /// A round rod between two points.
 struct Rod {

@@ -6,7 +6,7 @@
 #include "core/base/error.h"
 #include "core/model/furniture/carcass.h"
 #include "core/model/furniture/fronts.h"
-#include "core/model/furniture/rules.h"
+#include "core/model/shape_rules.h"
 
 namespace oikos::model {
 

@@ -5,8 +5,8 @@
 #include "core/model/furniture/appliances.h"
 #include "core/model/furniture/carcass.h"
 #include "core/model/furniture/fronts.h"
-#include "core/model/furniture/rules.h"
 #include "core/model/primitives.h"
+#include "core/model/shape_rules.h"
 
 namespace oikos::model {
 

@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/model/furniture/builder.h"
-#include "core/model/furniture/rules.h"
+#include "core/model/shape_rules.h"
 
 namespace oikos::model {
 
