@@ -69,6 +69,13 @@ void keepOneImporter(Assimp::Importer& importer, std::string_view name) {
   OIKOS_CHECK(importer.GetImporterCount() == 1);
 }
 
+/// Assimp 5.2 never ends on a PLY whose header does not.
+void checkPlyHeader(const std::string& bytes, const std::string& file) {
+  if (!bytes.starts_with("ply") || bytes.find("end_header") == std::string::npos) {
+    throw Error(ErrorCode::kInput, "cannot be read: a PLY must begin with 'ply' and have a header that ends with 'end_header'", file);
+  }
+}
+
 class SceneCheck {
  public:
   SceneCheck(const aiScene& scene, std::string file, std::size_t max_triangles)
@@ -158,6 +165,9 @@ AssimpScene::AssimpScene(ModelFolder& folder, MeshFormat format, std::size_t max
     : importer_(std::make_unique<Assimp::Importer>()) {
   const std::filesystem::path& file = folder.modelFile();
   OIKOS_CHECK(knownFormatOf(file).format == format);
+  if (format == MeshFormat::kPly) {
+    checkPlyHeader(*folder.modelBytes(), file.string());
+  }
   const std::string model_name = file.stem().string() + lowerCaseEnding(file);
   AssimpFileLog log;
   keepOneImporter(*importer_, knownFormatOf(file).importer);
@@ -165,6 +175,9 @@ AssimpScene::AssimpScene(ModelFolder& folder, MeshFormat format, std::size_t max
   scene_ = importer_->ReadFile(model_name, 0);
   if (log.refusal) {
     std::rethrow_exception(log.refusal);
+  }
+  if (log.missing.size() > 1) {
+    log.missing.erase(file.stem().string() + ".mtl");  // which Assimp tries in place of a library that is missing
   }
   missing_files_.assign(log.missing.begin(), log.missing.end());
   if (scene_ == nullptr) {

@@ -51,8 +51,8 @@ ModelFolder::ModelFolder(const std::filesystem::path& model_file, std::uintmax_t
   }
 }
 
-std::filesystem::path ModelFolder::resolve(const std::string& name) const {
-  std::string portable = name;
+std::filesystem::path ModelFolder::resolve(const std::string& name, const std::string& spelling) const {
+  std::string portable = spelling;
   std::replace(portable.begin(), portable.end(), '\\', '/');
   const auto refuse = [&](const std::string& reason) {
     throw Error(ErrorCode::kInput,
@@ -76,7 +76,7 @@ std::filesystem::path ModelFolder::resolve(const std::string& name) const {
 
 std::optional<std::filesystem::path> ModelFolder::findFile(const std::string& name) const {
   for (const std::string& spelling : {name, percentDecoded(name)}) {
-    const std::filesystem::path file = resolve(spelling);
+    const std::filesystem::path file = resolve(name, spelling);
     if (isRegularFile(file)) {
       return file;
     }

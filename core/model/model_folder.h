@@ -29,7 +29,7 @@ class ModelFolder {
   [[nodiscard]] std::string placeOf(const std::string& name) const;
 
  private:
-  [[nodiscard]] std::filesystem::path resolve(const std::string& name) const;
+  [[nodiscard]] std::filesystem::path resolve(const std::string& name, const std::string& spelling) const;
 
   std::filesystem::path model_file_;
   std::filesystem::path folder_;  ///< canonical

@@ -14,7 +14,7 @@ namespace oikos::model {
 
 namespace {
 
-/// urdfdom reports through a global logger that prints by default: this keeps the first message instead.
+/// urdfdom reports through a global logger that prints by default: this keeps the first messages instead, the cause and where it is.
 class CapturedMessages : public console_bridge::OutputHandler {
  public:
   CapturedMessages() { console_bridge::useOutputHandler(this); }
@@ -23,14 +23,17 @@ class CapturedMessages : public console_bridge::OutputHandler {
   CapturedMessages& operator=(const CapturedMessages&) = delete;
 
   void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/, int /*line*/) override {
-    if (first_.empty() && level >= console_bridge::CONSOLE_BRIDGE_LOG_WARN) {
-      first_ = text;
+    if (count_ < kMaxMessages && level >= console_bridge::CONSOLE_BRIDGE_LOG_WARN) {
+      text_ += (count_ == 0 ? "" : "; ") + text;
+      ++count_;
     }
   }
-  [[nodiscard]] const std::string& first() const { return first_; }
+  [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
-  std::string first_;
+  static constexpr int kMaxMessages = 3;
+  std::string text_;
+  int count_ = 0;
 };
 
 }  // namespace
@@ -42,7 +45,7 @@ std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::filesystem::path& fil
   const CapturedMessages messages;
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
   if (!model) {
-    throw base::Error(base::ErrorCode::kInput, "is not a valid URDF: " + messages.first(), file.string());
+    throw base::Error(base::ErrorCode::kInput, "is not a valid URDF: " + messages.text(), file.string());
   }
   return model;
 }

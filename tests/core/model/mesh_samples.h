@@ -96,7 +96,7 @@ inline std::string gltfBuffer() {
   for (const float number : {1.0F, 1.0F, 1.0F, 0.0F, 0.5F, 0.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F}) {
     appendBytes(bytes, number);
   }
-  for (const std::uint16_t index : {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}) {
+  for (const std::uint16_t index : std::array<std::uint16_t, 12>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}) {
     appendBytes(bytes, index);
   }
   return bytes;
