@@ -2,9 +2,11 @@
 // Noise: Nguyen, Izadi & Lovell, "Modeling Kinect Sensor Noise for Improved 3D Reconstruction and Tracking", 3DIMPVT 2012,
 // doi:10.1109/3DIMPVT.2012.84. Disparity and its steps: Khoshelham & Elberink, "Accuracy and Resolution of Kinect Depth Data for Indoor
 // Mapping Applications", Sensors 2012, doi:10.3390/s120201437. Shadow and correlation window: after Bohg, Romero, Herzog & Schaal, "Robot
-// Arm Pose Estimation through Pixel-Wise Part Classification", ICRA 2014, doi:10.1109/ICRA.2014.6907311. Unlike there, no dot pattern is
-// drawn and correlated: a window's disparity is the mean of the largest group of its pixels that agree, and what the pattern's matching
-// adds is Nguyen's noise. That noise is spread over disparity, less the part that the quantisation brings by itself.
+// Arm Pose Estimation through Pixel-Wise Part Classification", ICRA 2014, pages 3143-3150. Unlike there, no dot pattern is drawn and
+// correlated: a window's disparity is the mean of the largest group of its pixels that agree, and what the pattern's matching adds is
+// Nguyen's noise. That noise is spread over disparity, less the part that the quantisation brings by itself. How far from the mirror's
+// angle a highlight reaches: Sarbolandi, Lefloch & Kolb, "Kinect Range Sensing: Structured-Light versus Time-of-Flight Kinect", CVIU 2015,
+// arXiv:1505.05459 (a whiteboard at 1.7 m gives nothing below 10 degrees). The thresholds of drop-outs are guesses of the right order.
 #include "core/camera/sensor/kinect1.h"
 
 #include <algorithm>
@@ -186,7 +188,7 @@ void dropUnseen(const IdealView& view, const Kinect1Config& config, int v, RowSc
     const float depth_sq = depth_m[u] * depth_m[u];
     const float signal = reflectivity[u] * (1.0F - gloss[u]) * cosine / depth_sq * per_signal;  // a mirror sends nothing back
     const float weakest = std::min(signal, cosine * per_cosine);
-    const bool dazzles = gloss[u] * pow128(cosine) > max_highlight * depth_sq;
+    const bool dazzles = gloss[u] * gloss[u] * pow128(cosine) > max_highlight * depth_sq;
     const float threshold = std::max(1.0F + softness * row.signal[i], 0.0F);
     const bool is_seen = weakest > threshold && !dazzles;
     row.disparity_px[i] = is_seen ? row.disparity_px[i] : 0.0F;

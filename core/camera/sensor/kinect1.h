@@ -21,7 +21,7 @@ struct Kinect1Config {
   double min_signal = 0.012;         ///< reflectivity * cos(theta) / z² (1/m²) at which half of the readings drop out
   double min_cosine = 0.17;          ///< cos(theta) at which half of the readings drop out; about 80 degrees
   double dropout_softness = 0.3;     ///< relative deviation of these two thresholds, from pixel to pixel
-  double max_highlight = 0.5;        ///< gloss * cos(theta)^128 / z² (1/m²) above which the reflected projector dazzles
+  double max_highlight = 0.02;       ///< gloss² * cos(theta)^128 / z² (1/m²) above which the reflected projector dazzles
   double min_range_m = 0.5;          ///< nearer surfaces give no reading
   double max_range_m = 4.5;          ///< farther readings are given as none
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Noise: Fankhauser, Bloesch, Rodriguez, Kaestner, Hutter & Siegwart, "Kinect v2 for Mobile Robot Navigation: Evaluation and Modeling",
-// ICAR 2015, doi:10.1109/ICAR.2015.7251485. Flying pixels and the effect of dark surfaces as described by Wasenmüller & Stricker,
-// "Comparison of Kinect v1 and v2 Depth Images in Terms of Accuracy and Precision", ACCV Workshops 2016,
-// doi:10.1007/978-3-319-54427-4_3. That noise grows with 1/sqrt(light) is the limit of shot noise, and not from these papers. Left out:
-// wiggling and the drift with temperature.
+// ICAR 2015, doi:10.1109/ICAR.2015.7251485 (fitted from 0.7 to 3.1 m and 0 to 75 degrees; used beyond too). Flying pixels and the effect
+// of dark surfaces as described by Wasenmüller & Stricker, "Comparison of Kinect v1 and v2 Depth Images in Terms of Accuracy and
+// Precision", ACCV Workshops 2016, doi:10.1007/978-3-319-54427-4_3. That noise grows with 1/sqrt(light) is the limit of shot noise, and
+// not from these papers. Left out: wiggling, the drift with temperature, multipath and highlights.
 #include "core/camera/sensor/kinect2.h"
 
 #include <algorithm>
