@@ -32,7 +32,7 @@ struct ColorSensorConfig {
 
 /// What is before the camera.
 struct ColorScene {
-  const PinholeCamera& camera;
+  PinholeCamera camera;
   cv::Mat color;    ///< CV_8UC3 (sRGB), or CV_32FC3 light, 1 = saturated at the reference exposure and brighter light allowed; BGR
   cv::Mat depth_m;  ///< CV_32FC1, NaN = far away; may be empty if nothing moves
 };
