@@ -214,7 +214,7 @@ void measureRow(const Matcher& matcher, const RowScratch& row, int width, float*
     const float steps = std::floor((ideal_px[u] + added_px * axial[u]) * steps_per_px + 0.5F);
     const float reading_m = matcher.focal_baseline / (steps * step_px);
     const bool in_range = (reading_m >= min_m) & (reading_m <= max_m);
-    depth_m[u] = (ideal_px[u] > 0.0F) & in_range ? reading_m : kNoReading;
+    depth_m[u] = ((ideal_px[u] > 0.0F) & in_range) ? reading_m : kNoReading;
   }
 }
 

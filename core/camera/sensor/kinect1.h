@@ -18,7 +18,7 @@ struct Kinect1Config {
   double min_agreement = 0.45;       ///< share of the window's pixels that must match together, else no reading
   double noise_scale = 1.0;          ///< of the axial and lateral noise as published; 0: none
   int noise_spacing_px = 3;          ///< neighbours closer than this have similar noise
-  double min_signal = 0.012;         ///< reflectivity * cos(theta) / z² (1/m²) at which half of the readings drop out
+  double min_signal = 0.006;         ///< reflectivity * cos(theta) / z² (1/m²) at which half of the readings drop out
   double min_cosine = 0.17;          ///< cos(theta) at which half of the readings drop out; about 80 degrees
   double dropout_softness = 0.3;     ///< relative deviation of these two thresholds, from pixel to pixel
   double max_highlight = 0.02;       ///< gloss² * cos(theta)^128 / z² (1/m²) above which the reflected projector dazzles
