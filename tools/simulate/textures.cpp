@@ -8,29 +8,11 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "core/camera/sensor/hash_noise.h"
+#include "tools/simulate/dice.h"
 
 namespace oikos::simulate {
 
 namespace {
-
-/// Numbers of a texture by where and what for.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : seed_(camera::mixBits(seed + 0x9e3779b97f4a7c15U)) {}
-  /// In [0, 1).
-  [[nodiscard]] double at(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) const {
-    return camera::toUniform(
-        camera::mixBits(camera::mixBits(camera::mixBits(seed_ + a) + b * 0x51ed270b35ae5b11U) + c * 0xd1342543de82ef95U));
-  }
-  [[nodiscard]] double next() { return at(1'000'000 + used_++); }
-  [[nodiscard]] double between(double low, double high) { return low + (high - low) * next(); }
-  [[nodiscard]] int upTo(int most) { return static_cast<int>(next() * (most + 1)); }
-
- private:
-  std::uint64_t seed_;
-  std::uint64_t used_ = 0;
-};
 
 int wrapped(int i, int period) {
   return ((i % period) + period) % period;
