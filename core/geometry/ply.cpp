@@ -339,7 +339,8 @@ void skipElement(Source& source, const Header& header, const Element& element) {
   RecordReader reader(source, header, element);
   std::vector<double> scalars;
   std::vector<double> list;
-  for (std::size_t i = 0; i < element.count; ++i) {
+  // Records without a property take no bytes: their count may be any number.
+  for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
     reader.read(scalars, list);
   }
 }

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/geometry/ply.h"
 #include "core/model/assimp_scene.h"
 #include "core/model/mesh_weld.h"
 #include "core/model/scene_materials.h"
@@ -48,17 +49,42 @@ void warnOfMissing(const AssimpScene& loaded, const ModelFolder& folder, std::ve
   }
 }
 
+// Not through Assimp: its PLY importer (5.2) writes past its memory or never ends on files that are slightly damaged.
+TriangleMesh readPlyFile(const std::filesystem::path& file, std::size_t max_triangles) {
+  geometry::ColoredMesh source = geometry::readPlyMesh(file);
+  if (source.triangles.size() > max_triangles) {
+    fail(file, "is too large: must have at most " + std::to_string(max_triangles) + " triangles");
+  }
+  TriangleMesh mesh;
+  mesh.vertices = std::move(source.vertices.points);
+  mesh.vertex_colors = std::move(source.vertices.colors);
+  mesh.triangles = std::move(source.triangles);
+  mesh.triangle_materials.assign(mesh.triangles.size(), 0);
+  mesh.materials.emplace_back();
+  if (!mesh.vertex_colors.empty()) {
+    mesh.materials[0].color_rgb.setOnes();
+  }
+  return mesh;
+}
+
+TriangleMesh readThroughAssimp(ModelFolder& folder, std::size_t max_triangles, std::vector<std::string>& warnings) {
+  const MeshFormat format = meshFormatOf(folder.modelFile());
+  const AssimpScene loaded(folder, format, max_triangles);
+  warnOfMissing(loaded, folder, warnings);
+  SceneMaterials materials(loaded.scene(), format, folder);
+  TriangleMesh mesh = gatherScene(loaded.scene(), format, materials, warnings);
+  warnings.insert(warnings.end(), materials.warnings().begin(), materials.warnings().end());
+  return mesh;
+}
+
 }  // namespace
 
 MeshFile readMesh(const std::filesystem::path& file, const MeshFileLimits& limits) {
   const MeshFormat format = meshFormatOf(file);
   ModelFolder folder(file, limits.max_bytes);
-  const AssimpScene loaded(folder, format, limits.max_triangles);
   MeshFile result;
-  warnOfMissing(loaded, folder, result.warnings);
-  SceneMaterials materials(loaded.scene(), format, folder);
-  TriangleMesh mesh = gatherScene(loaded.scene(), format, materials, result.warnings);
-  result.warnings.insert(result.warnings.end(), materials.warnings().begin(), materials.warnings().end());
+  TriangleMesh mesh = format == MeshFormat::kPly ? readPlyFile(file, limits.max_triangles)
+                                                 : readThroughAssimp(folder, limits.max_triangles, result.warnings);
   if (mesh.empty()) {
     fail(file, "holds no triangles");
   }

@@ -21,10 +21,11 @@ struct MeshFileLimits {
   std::size_t max_triangles = 20'000'000;                 ///< with each mesh counted as often as it is placed
 };
 
-/// OBJ + MTL (`.obj`), glTF 2.0 (`.gltf`, `.glb`), PLY (`.ply`), STL (`.stl`) or COLLADA (`.dae`), by the name's ending. glTF is turned
-/// from its y up; COLLADA by its up_axis and to metres by its unit; the others are taken as they are: metres, z up. All meshes of the scene
-/// are gathered where its nodes place them, at rest. Colours are sRGB: glTF's, which are linear, are converted. Textures may be PNG or
-/// JPEG, of the diffuse or base colour; transparency, other maps and animation are left out.
+/// OBJ + MTL (`.obj`), glTF 2.0 (`.gltf`, `.glb`), PLY (`.ply`; triangles and vertex colours: geometry::readPlyMesh), STL (`.stl`) or
+/// COLLADA (`.dae`), by the name's ending. glTF is turned from its y up; COLLADA by its up_axis and to metres by its unit; the others are
+/// taken as they are: metres, z up. All meshes of the scene are gathered where its nodes place them, at rest. Colours are sRGB: glTF's,
+/// which are linear, are converted. Textures may be PNG or JPEG, of the diffuse or base colour; transparency, other maps and animation are
+/// left out.
 ///
 /// The files that a model names must lie in its folder or below: see ModelFolder. Throws Error{kIo} if the file itself cannot be read, and
 /// Error{kInput} with its name for a format that is not known, a damaged file, a texture that is missing or wrong, numbers that are not

@@ -44,6 +44,9 @@ ModelFolder::ModelFolder(const std::filesystem::path& model_file, std::uintmax_t
     throw Error(ErrorCode::kInput, "is no file but a folder or a device", model_file.string());
   }
   model_bytes_ = std::make_shared<const std::string>(read(model_file));
+  if (model_bytes_->empty()) {
+    throw Error(ErrorCode::kInput, "is empty", model_file.string());
+  }
   const std::filesystem::path folder = model_file.parent_path();
   folder_ = std::filesystem::canonical(folder.empty() ? "." : folder, error);
   if (error) {

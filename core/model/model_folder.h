@@ -14,7 +14,7 @@ namespace oikos::model {
 /// that is read counts against one limit. Not thread-safe.
 class ModelFolder {
  public:
-  /// Reads the model file. Throws Error{kIo} if it cannot be read, Error{kInput} if it is no regular file or too large.
+  /// Reads the model file. Throws Error{kIo} if it cannot be read, Error{kInput} if it is no regular file, empty or too large.
   ModelFolder(const std::filesystem::path& model_file, std::uintmax_t max_bytes);
 
   [[nodiscard]] const std::filesystem::path& modelFile() const { return model_file_; }

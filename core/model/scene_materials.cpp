@@ -77,8 +77,8 @@ SceneMaterials::Worn SceneMaterials::make(const aiMaterial& source, bool has_ver
       warnings_.push_back("material '" + material.name + "' moves, turns or scales its texture: this is left out");
     }
   }
-  // PLY and STL have no materials: Assimp's stands for none, as its default does in the other formats.
-  if (format_ == MeshFormat::kPly || format_ == MeshFormat::kStl || material.name == AI_DEFAULT_MATERIAL_NAME) {
+  // STL has no materials: Assimp's stands for none, as its default does in the other formats.
+  if (format_ == MeshFormat::kStl || material.name == AI_DEFAULT_MATERIAL_NAME) {
     material.name.clear();
     material.color_rgb = texture || has_vertex_colors ? Eigen::Vector3f::Ones() : Material{}.color_rgb;
   } else {

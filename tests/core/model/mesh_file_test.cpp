@@ -226,7 +226,8 @@ TEST_F(ReadMesh, WarnsOfWhatIsProbablyNotMeant) {
   EXPECT_EQ(flat.warnings[0], "1 triangles without an area are left out");
   const auto bare = read("a.obj", "mtllib gone.mtl\n" + samples::kObjShape);
   ASSERT_GE(bare.warnings.size(), 1U);
-  EXPECT_NE(bare.warnings[0].find("gone.mtl', which is missing; looked for " + folder_.path().string()), std::string::npos);
+  EXPECT_NE(bare.warnings[0].find("gone.mtl', which is missing; looked for " + folder_.path().string()), std::string::npos)
+      << bare.warnings[0];
 }
 
 }  // namespace
