@@ -16,6 +16,7 @@
 
 #include "core/base/error.h"
 #include "core/model/assimp_files.h"
+#include "core/model/collada_check.h"
 
 namespace oikos::model {
 
@@ -158,6 +159,9 @@ AssimpScene::AssimpScene(ModelFolder& folder, MeshFormat format, std::size_t max
     : importer_(std::make_unique<Assimp::Importer>()) {
   const std::filesystem::path& file = folder.modelFile();
   OIKOS_CHECK(knownFormatOf(file).format == format && format != MeshFormat::kPly);
+  if (format == MeshFormat::kCollada) {
+    checkColladaAccessors(*folder.modelBytes(), file.string());
+  }
   const std::string model_name = file.stem().string() + lowerCaseEnding(file);
   AssimpFileLog log;
   keepOneImporter(*importer_, knownFormatOf(file).importer);

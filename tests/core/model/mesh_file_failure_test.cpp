@@ -64,6 +64,21 @@ TEST_F(ReadMeshFailure, EmptyAndCutFiles) {
   expectFailure("a.dae", samples::collada("", "0 0 0 1 0 0 0 0 -2 0 3 0").substr(0, 900), {});
 }
 
+TEST_F(ReadMeshFailure, ColladaThatReachesBeyondItsNumbers) {
+  const std::string whole = samples::collada("", "0 0 0 1 0 0 0 0 -2 0 3 0");
+  const std::vector<std::array<std::string, 3>> edits = {
+      {"id=\"ua\" count=\"8\"", "id=\"ua\" count=\"0\"", "'#ua' reaches to its value 8: there are 0"},
+      {"count=\"4\" stride=\"3\"", "count=\"4\" stride=\"4\"", "value 16: there are 12"},
+      {"count=\"4\" stride=\"3\"", "count=\"4\" stride=\"-3\"", "stride '-3'"},
+      {"count=\"4\" stride=\"3\"", "count=\"4294967295\" stride=\"4294967295\"", "records of"},
+      {"source=\"#pa\"", "source=\"#pb\"", "'#pb'"}};
+  for (const auto& [from, to, part] : edits) {
+    std::string text = whole;
+    ASSERT_NE(text.find(from), std::string::npos);
+    expectFailure("a.dae", text.replace(text.find(from), from.size(), to), {part});
+  }
+}
+
 TEST_F(ReadMeshFailure, NothingToSee) {
   expectFailure("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nl 1 2 3\n", {"holds no triangles"});
   expectFailure("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n", {"no triangle with an area", "each of its 2"});
