@@ -17,6 +17,7 @@
 #include "core/base/error.h"
 #include "core/model/assimp_files.h"
 #include "core/model/collada_check.h"
+#include "core/model/nesting_check.h"
 
 namespace oikos::model {
 
@@ -160,7 +161,10 @@ AssimpScene::AssimpScene(ModelFolder& folder, MeshFormat format, std::size_t max
   const std::filesystem::path& file = folder.modelFile();
   OIKOS_CHECK(knownFormatOf(file).format == format && format != MeshFormat::kPly);
   if (format == MeshFormat::kCollada) {
+    checkXmlNesting(*folder.modelBytes(), file.string());
     checkColladaAccessors(*folder.modelBytes(), file.string());
+  } else if (format == MeshFormat::kGltf) {
+    checkGltfNesting(*folder.modelBytes(), file.string());
   }
   const std::string model_name = file.stem().string() + lowerCaseEnding(file);
   AssimpFileLog log;

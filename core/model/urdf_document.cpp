@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/read_file.h"
+#include "core/model/nesting_check.h"
 
 namespace oikos::model {
 
@@ -41,6 +42,7 @@ class CapturedMessages : public console_bridge::OutputHandler {
 std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::filesystem::path& file) {
   static std::mutex logger_mutex;
   const std::string text = base::readFile(file);
+  checkXmlNesting(text, file.string());
   const std::lock_guard lock(logger_mutex);
   const CapturedMessages messages;
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);

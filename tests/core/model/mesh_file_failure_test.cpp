@@ -79,6 +79,28 @@ TEST_F(ReadMeshFailure, ColladaThatReachesBeyondItsNumbers) {
   }
 }
 
+std::string repeated(const std::string& text, int count) {
+  std::string all;
+  for (int i = 0; i < count; ++i) {
+    all += text;
+  }
+  return all;
+}
+
+TEST_F(ReadMeshFailure, NestedTooDeep) {
+  constexpr int kDepth = 200'000;
+  expectFailure("a.gltf", repeated("[", kDepth), {"nested too deep"});
+  expectFailure("a.dae", "<COLLADA>" + repeated("<node a='/>'>", kDepth), {"nested too deep"});
+  std::string nodes;
+  for (int i = 1; i < kDepth; ++i) {
+    nodes += R"({"children":[)" + std::to_string(i) + "]},";
+  }
+  const std::string begin = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)";
+  expectFailure("a.gltf", begin + nodes + "{}]}", {"nested too deep"});
+  expectFailure("a.glb", samples::glb(begin + nodes + "{}]}", ""), {"nested too deep"});
+  expectFailure("a.gltf", begin + R"({"children":[1]},{"children":[0]}]})", {"nested too deep"});
+}
+
 TEST_F(ReadMeshFailure, NothingToSee) {
   expectFailure("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nl 1 2 3\n", {"holds no triangles"});
   expectFailure("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n", {"no triangle with an area", "each of its 2"});

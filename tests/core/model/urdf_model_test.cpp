@@ -186,6 +186,11 @@ TEST_F(ReadUrdf, RefusesWhatIsNoUrdfOrNoTree) {
       "<robot name='r'><link name='root'/><link name='a'/><link name='b'/><joint name='j' type='fixed'><parent link='a'/><child "
       "link='b'/></joint><joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>",
       {"circle"});
+  std::string deep = "<robot name='r'>";
+  for (int i = 0; i < 200'000; ++i) {
+    deep += "<a>";
+  }
+  expectFailure(deep, {"nested too deep"});
   test::expectError(ErrorCode::kIo, {"/no/such.urdf"}, [] { static_cast<void>(readUrdf("/no/such.urdf")); });
 }
 
