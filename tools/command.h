@@ -62,6 +62,7 @@ void addInspectCommand(CLI::App& root);
 void addMapCommand(CLI::App& root);
 void addRevertCommand(CLI::App& root);
 void addServeCommand(CLI::App& root);
+void addSimulateCommand(CLI::App& root);
 void addTellCommand(CLI::App& root);
 
 }  // namespace oikos::tools

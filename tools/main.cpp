@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   oikos::tools::addTellCommand(program.root());
   oikos::tools::addCheckCommand(program.root());
   oikos::tools::addServeCommand(program.root());
+  oikos::tools::addSimulateCommand(program.root());
   oikos::tools::addRevertCommand(program.root());
   oikos::tools::addForgetCommand(program.root());
   oikos::tools::addEvaluateCommand(program.root());
