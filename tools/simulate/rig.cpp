@@ -22,7 +22,7 @@ Eigen::Isometry3d mountOf(const CameraSettings& camera) {
   R_level_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // z forward, x right, y down
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = Eigen::AngleAxisd(camera.tilt_deg * kRadPerDeg, Eigen::Vector3d::UnitY()) * R_level_camera;
-  T.translation() = {camera.forward_m, 0.0, camera.height_m};
+  T.translation() = Eigen::Vector3d(camera.forward_m, 0.0, camera.height_m);
   return T;
 }
 
@@ -34,10 +34,10 @@ camera::DepthCamera depthCameraOf(const SceneScript& script) {
     const CameraSettings& color = script.camera;
     depth.pinhole = {
         color.width, color.height, color.fx * kFocalRatio, color.fy * kFocalRatio, 0.5 * (color.width - 1), 0.5 * (color.height - 1)};
-    depth.T_color_depth.translation() = {-0.025, 0.0, 0.0};
+    depth.T_color_depth.translation() = Eigen::Vector3d(-0.025, 0.0, 0.0);
   } else {
     depth.pinhole = camera::nominalDepthCamera(script.sensor);
-    depth.T_color_depth.translation() = {-0.052, 0.0, 0.0};
+    depth.T_color_depth.translation() = Eigen::Vector3d(-0.052, 0.0, 0.0);
   }
   return depth;
 }

@@ -10,6 +10,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/number_text.h"
 #include "core/base/parallel.h"
+#include "core/base/posix_file.h"
 #include "core/model/primitives.h"
 #include "core/recording/image_codec.h"
 #include "core/recording/png_encoder.h"
