@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/model/furniture/cabinet.h"
 
-#include <cmath>
+#include <algorithm>
+#include <numbers>
 
 #include "core/base/error.h"
 #include "core/model/furniture/carcass.h"
@@ -80,7 +81,9 @@ void checkBody(ShapeRules& rules, const Shape& shape) {
 std::vector<HingedFront> planDoors(const CabinetShape& shape) {
   const Eigen::AlignedBox3d front = shrunk(planCabinet(shape).front, shape.door_gap_m / 2.0);
   if (shape.door_count == 1) {
-    return {{.name = "door", .closed_model = front, .hinge = shape.hinge, .opening_rad = shape.door_opening_rad}};
+    const bool falls = shape.hinge == HingeEdge::kBottom;
+    const double opening_rad = falls ? std::min(shape.door_opening_rad, std::numbers::pi / 2.0) : shape.door_opening_rad;
+    return {{.name = "door", .closed_model = front, .hinge = shape.hinge, .opening_rad = opening_rad}};
   }
   if (shape.door_count == 0) {
     return {};
@@ -94,12 +97,6 @@ std::vector<HingedFront> planDoors(const CabinetShape& shape) {
 
 HandleRule handleRule(const CabinetShape& shape) {
   return {.style = shape.handle, .length_m = shape.handle_length_m, .offset_m = shape.handle_offset_m, .level = shape.handle_level};
-}
-
-/// What the free edge of a door needs beside it to turn past its neighbour: its diagonal is longer than its width.
-double neededGap(const HingedFront& front, double board_m) {
-  const double width_m = front.closed_model.sizes().y();
-  return std::hypot(width_m, board_m) - width_m;
 }
 
 struct DrawerPlan {
@@ -164,13 +161,19 @@ std::vector<std::string> CabinetShape::validate() const {
     return rules.messages();  // what follows needs sizes that make sense
   }
   const double inner_m = height_m - plinth_height_m - worktop_thickness_m - (2 + shelf_count) * board_m;
+  const bool under_overhang = door_count == 1 && hinge == HingeEdge::kTop && worktop_thickness_m > 0.0;
+  rules.require(!under_overhang || worktop_overhang_m == 0.0, "worktop_overhang_m", worktop_overhang_m,
+                "must be 0 above a door that is hinged at its top");
   rules.require(inner_m > 0.0, "shelf_count", shelf_count, "must leave room between the shelves");
   for (const HingedFront& front : planDoors(*this)) {
     rules.require(front.closed_model.sizes().minCoeff() > 0.0, "door_gap_m", door_gap_m, "must leave something of the doors");
     rules.require(handleFits(front, handleRule(*this)), "handle_length_m", handle_length_m,
                   "must fit on the door with handle_offset_m from its edge");
-    rules.require(door_count < 2 || neededGap(front, board_m) <= door_gap_m, "door_gap_m", door_gap_m,
+    rules.require(door_count < 2 || turningRoom(front) <= door_gap_m, "door_gap_m", door_gap_m,
                   "must let a door turn past the other: larger, or board_m less");
+    const bool rises = front.hinge == HingeEdge::kBottom && worktop_thickness_m > 0.0 && worktop_overhang_m > 0.0;
+    rules.require(!rises || turningRoom(front) <= door_gap_m / 2.0, "door_gap_m", door_gap_m,
+                  "must let the door turn past the worktop: larger, or board_m less");
   }
   return rules.messages();
 }

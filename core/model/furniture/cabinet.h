@@ -25,7 +25,7 @@ struct CabinetShape {
   int door_count = 1;                  ///< 0, 1 or 2
   HingeEdge hinge = HingeEdge::kLeft;  ///< of a single door; two hang at the left and the right
   double door_gap_m = 0.003;           ///< between neighbouring doors; half of it at the body's edges
-  double door_opening_rad = 1.9;       ///< the joints' upper limit
+  double door_opening_rad = 1.9;       ///< the joints' upper limit; a door that is hinged at its bottom stops level at the latest
   HandleStyle handle = HandleStyle::kBarVertical;
   double handle_length_m = 0.16;
   double handle_offset_m = 0.04;     ///< from the edge across from the hinge to the handle's middle, or its near end if it runs across

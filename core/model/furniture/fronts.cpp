@@ -2,6 +2,7 @@
 #include "core/model/furniture/fronts.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace oikos::model {
 
@@ -51,6 +52,13 @@ bool handleFits(const HingedFront& front, const HandleRule& rule) {
   const Eigen::Vector2d half = handleHalf(rule);
   const Eigen::AlignedBox2d face(front.closed_model.min().tail<2>(), front.closed_model.max().tail<2>());
   return face.contains(Eigen::AlignedBox2d((centre - half).eval(), (centre + half).eval()));
+}
+
+double turningRoom(const HingedFront& front) {
+  const Eigen::Vector3d size = front.closed_model.sizes();
+  const bool upright = front.hinge == HingeEdge::kLeft || front.hinge == HingeEdge::kRight;
+  const double length_m = upright ? size.y() : size.z();
+  return std::hypot(length_m, size.x()) - length_m;
 }
 
 int addBoardDoor(FurnitureBuilder& builder, const HingedFront& front, const HandleRule& rule, const Finish& front_finish,

@@ -19,6 +19,9 @@ struct HandleRule {
 /// Whether it lies within the front with its whole length.
 [[nodiscard]] bool handleFits(const HingedFront& front, const HandleRule& rule);
 
+/// What the edge across from the hinge needs beside it to turn past its neighbour: the front's diagonal is longer than its side.
+[[nodiscard]] double turningRoom(const HingedFront& front);
+
 /// Adds a door of one board with its handle; returns its part.
 int addBoardDoor(FurnitureBuilder& builder, const HingedFront& front, const HandleRule& rule, const Finish& front_finish,
                  const Finish& handle_finish);

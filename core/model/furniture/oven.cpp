@@ -159,6 +159,8 @@ std::vector<std::string> OvenShape::validate() const {
   rules.require(2.0 * wall_m < width_m - 0.1 && wall_m < depth_m - door_m - 0.1, "wall_m", wall_m, "must leave 0.1 m between the walls");
   rules.require(handleFits(door, handleRule(*this)), "handle_length_m", handle_length_m,
                 "must fit on the door with handle_offset_m from its edge");
+  rules.require(turningRoom(door) <= door_gap_m / 2.0, "door_gap_m", door_gap_m,
+                "must let the door turn past the panel: larger, or door_m less");
   rules.require(2.2 * knob_radius_m * knob_count <= width_m && 2.2 * knob_radius_m <= panel_height_m, "knob_radius_m", knob_radius_m,
                 "must let all knobs turn on the panel");
   return rules.messages();

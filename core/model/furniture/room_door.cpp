@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/model/furniture/room_door.h"
 
-#include <cmath>
-
 #include "core/base/error.h"
 #include "core/model/furniture/builder.h"
+#include "core/model/furniture/fronts.h"
 #include "core/model/shape_rules.h"
 
 namespace oikos::model {
@@ -81,7 +80,7 @@ std::vector<std::string> RoomDoorShape::validate() const {
   rules.require(leaf.y() > lever_offset_m + lever_length_m, "width_m", width_m, "must leave a leaf that is wider than its lever");
   rules.require(lever_height_m < height_m - jamb_m - 0.05, "lever_height_m", lever_height_m, "must be below the lintel");
   rules.require(leaf_m + 2.0 * kStop_m < depth_m, "leaf_m", leaf_m, "must leave room for the stop in the frame's depth");
-  rules.require(std::hypot(leaf.y(), leaf_m) - leaf.y() <= door_gap_m, "door_gap_m", door_gap_m,
+  rules.require(turningRoom(planLeaf(*this)) <= door_gap_m, "door_gap_m", door_gap_m,
                 "must let the leaf turn past the jamb: larger, or leaf_m less");
   return rules.messages();
 }

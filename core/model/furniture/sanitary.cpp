@@ -2,7 +2,6 @@
 #include "core/model/furniture/sanitary.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/error.h"
 #include "core/model/furniture/carcass.h"
@@ -134,10 +133,9 @@ std::vector<std::string> SinkUnitShape::validate() const {
   rules.require(basin_height_m > worktop_thickness_m && basin_height_m < plan.carcass.sizes().z() - board_m, "basin_height_m",
                 basin_height_m, "must be more than the worktop and end above the cupboard's bottom");
   for (const HingedFront& door : plan.doors) {
-    const double width = door.closed_model.sizes().y();
     rules.require(handleFits(door, handleRule(*this)), "handle_length_m", handle_length_m,
                   "must fit on the door with handle_offset_m from its edge");
-    rules.require(std::hypot(width, board_m) - width <= door_gap_m, "door_gap_m", door_gap_m,
+    rules.require(turningRoom(door) <= door_gap_m, "door_gap_m", door_gap_m,
                   "must let a door turn past the other: larger, or board_m less");
   }
   return rules.messages();

@@ -142,6 +142,8 @@ TEST(Appliances, SayWhatIsWrong) {
   EXPECT_EQ(FridgeShape{.freezer_height_m = 3.0}.validate().front(),
             "furniture.freezer_height_m = 3: must leave room behind each door between the walls");
   EXPECT_EQ(OvenShape{.knob_radius_m = 0.1}.validate().front(), "furniture.knob_radius_m = 0.1: must let all knobs turn on the panel");
+  EXPECT_EQ(OvenShape{.door_gap_m = 0.001}.validate().front(),
+            "furniture.door_gap_m = 0.001: must let the door turn past the panel: larger, or door_m less");
   EXPECT_EQ(DishwasherShape{.height_m = 0.0}.validate().front(), "furniture.height_m = 0: must be > 0");
   for (const auto& row : enumTable(FreezerPlace{})) {
     EXPECT_EQ(base::findEnum<FreezerPlace>(base::toString(row.value)), row.value);

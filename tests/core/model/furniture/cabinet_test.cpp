@@ -90,6 +90,11 @@ TEST(Cabinet, FlapsOpenUpwardsAndDownwards) {
   expectNear(boundsAt(makeCabinet(shape), {kQuarter_rad}, "front").max(), {0.3 + 0.797, 0.2485, 0.1015 + 0.018}, 1e-6);
 }
 
+TEST(Cabinet, AFlapThatFallsStopsLevel) {
+  EXPECT_EQ(makeCabinet({.hinge = HingeEdge::kBottom, .door_opening_rad = 1.9}).joints[0].upper, kQuarter_rad);
+  EXPECT_EQ(makeCabinet({.hinge = HingeEdge::kLeft, .door_opening_rad = 1.9}).joints[0].upper, 1.9);
+}
+
 TEST(Cabinet, NoDoorRunsIntoTheBodyOrTheOtherDoor) {
   for (const HingeEdge hinge : {HingeEdge::kLeft, HingeEdge::kRight, HingeEdge::kTop, HingeEdge::kBottom}) {
     CabinetShape shape = plainCabinet();
@@ -120,6 +125,10 @@ TEST(Cabinet, SaysWhatIsWrong) {
   expectMessage({.board_m = 0.3}, "furniture.board_m = 0.3: must leave room between the sides: less than width_m / 2");
   expectMessage({.handle_length_m = 1.0}, "furniture.handle_length_m = 1: must fit on the door with handle_offset_m from its edge");
   expectMessage({.shelf_count = 50}, "furniture.shelf_count = 50: must leave room between the shelves");
+  expectMessage({.hinge = HingeEdge::kTop, .worktop_thickness_m = 0.03},
+                "furniture.worktop_overhang_m = 0.02: must be 0 above a door that is hinged at its top");
+  expectMessage({.hinge = HingeEdge::kBottom, .door_gap_m = 0.0, .worktop_thickness_m = 0.03},
+                "furniture.door_gap_m = 0: must let the door turn past the worktop: larger, or board_m less");
   EXPECT_THROW(static_cast<void>(makeCabinet({.width_m = -1.0})), base::ContractViolation);
 }
 

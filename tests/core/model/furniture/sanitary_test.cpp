@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "core/model/furniture.h"
+#include "core/model/furniture/furniture.h"
 #include "tests/core/model/furniture/furniture_checks.h"
 
 namespace oikos::model {
