@@ -73,6 +73,7 @@ TEST(WriteObj, EveryCombinationOfListsIsReadBack) {
   const test::TemporaryFolder folder;
   TriangleMesh full = makeSphere({.radius_m = 0.37F, .rings = 9});
   full.materials = {{.name = "plain", .color_rgb = {1.0F, 1.0F, 1.0F}, .texture = {}}};
+  full.texture_coordinates.clear();
   for (std::size_t i = 0; i < full.vertices.size(); ++i) {
     full.texture_coordinates.emplace_back(0.001F * static_cast<float>(i), 1.0F - 0.002F * static_cast<float>(i));
     full.vertex_colors.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(255 - i), static_cast<std::uint8_t>(3 * i)});
