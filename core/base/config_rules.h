@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/enum_table.h"
 #include "core/base/number_text.h"
 
 namespace oikos::base {
@@ -26,9 +27,9 @@ class ConfigRules {
   ConfigRules& between(std::string_view name, Number value, std::type_identity_t<Number> low, std::type_identity_t<Number> high) {
     return require(value >= low && value <= high, name, value, "must be from " + text(low) + " to " + text(high));
   }
-  /// Any other rule, in the words of `rule`: "must be a multiple of 4".
-  template <class Number>
-  ConfigRules& require(bool kept, std::string_view name, Number value, std::string_view rule) {
+  /// Any other rule, in the words of `rule`: "must be a multiple of 4". The value may also be one of a named enum.
+  template <class Value>
+  ConfigRules& require(bool kept, std::string_view name, Value value, std::string_view rule) {
     if (!kept) {
       messages_.push_back(std::string(name) + " = " + text(value) + ": " + std::string(rule));
     }
@@ -38,13 +39,15 @@ class ConfigRules {
   [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
 
  private:
-  template <class Number>
-  static std::string text(Number number) {
-    static_assert(std::is_arithmetic_v<Number>);
-    if constexpr (std::is_floating_point_v<Number>) {
-      return toText(static_cast<double>(number));
+  template <class Value>
+  static std::string text(Value value) {
+    static_assert(std::is_arithmetic_v<Value> || NamedEnum<Value>);
+    if constexpr (NamedEnum<Value>) {
+      return std::string(toString(value));
+    } else if constexpr (std::is_floating_point_v<Value>) {
+      return toText(static_cast<double>(value));
     } else {
-      return toText(static_cast<std::int64_t>(number));
+      return toText(static_cast<std::int64_t>(value));
     }
   }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/config_rules.h"
+#include "core/base/degrees.h"
 
 namespace oikos::model {
 
@@ -30,6 +31,11 @@ class ShapeRules {
   template <class Number>
   ShapeRules& require(bool kept, std::string_view name, Number value, std::string_view rule) {
     rules_.require(kept, prefix_ + std::string(name), value, rule);
+    return *this;
+  }
+  /// `name_deg` is the name that files give it; so are the limits.
+  ShapeRules& angle(std::string_view name_deg, double value_rad, double low_deg, double high_deg) {
+    rules_.between(prefix_ + std::string(name_deg), base::toDegrees(value_rad), low_deg, high_deg);
     return *this;
   }
   ShapeRules& color(std::string_view name, std::uint32_t rgb) {

@@ -25,6 +25,13 @@ struct CupShape {
   std::uint32_t body_rgb = 0x3C6EA8;
   std::uint32_t inside_rgb = 0xF4F2EC;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("diameter_m", diameter_m).length("bottom_diameter_m", bottom_diameter_m).length("height_m", height_m);
+    visitor.length("wall_m", wall_m).length("bottom_m", bottom_m).length("handle_reach_m", handle_reach_m);
+    visitor.length("handle_rod_m", handle_rod_m).color("outside_rgb", outside_rgb).color("body_rgb", body_rgb);
+    visitor.color("inside_rgb", inside_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] TriangleMesh makeCup(const CupShape& shape);
@@ -38,6 +45,11 @@ struct BowlShape {
   std::uint32_t outside_rgb = 0xC8553D;
   std::uint32_t inside_rgb = 0xF4F2EC;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("diameter_m", diameter_m).length("height_m", height_m).length("foot_diameter_m", foot_diameter_m);
+    visitor.length("wall_m", wall_m).color("outside_rgb", outside_rgb).color("inside_rgb", inside_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] TriangleMesh makeBowl(const BowlShape& shape);
@@ -51,6 +63,11 @@ struct PlateShape {
   std::uint32_t body_rgb = 0xF4F2EC;
   std::uint32_t inside_rgb = 0xF4F2EC;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("diameter_m", diameter_m).length("height_m", height_m).length("well_diameter_m", well_diameter_m);
+    visitor.length("wall_m", wall_m).color("body_rgb", body_rgb).color("inside_rgb", inside_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] TriangleMesh makePlate(const PlateShape& shape);
@@ -69,6 +86,13 @@ struct BottleShape {
   std::uint32_t label_rgb = 0xEFE9D8;
   std::uint32_t cap_rgb = 0xB8372F;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("diameter_m", diameter_m).length("height_m", height_m).length("neck_diameter_m", neck_diameter_m);
+    visitor.length("shoulder_height_m", shoulder_height_m).length("neck_height_m", neck_height_m).length("cap_height_m", cap_height_m);
+    visitor.length("label_low_m", label_low_m).length("label_high_m", label_high_m).color("body_rgb", body_rgb);
+    visitor.color("label_rgb", label_rgb).color("cap_rgb", cap_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] TriangleMesh makeBottle(const BottleShape& shape);
@@ -81,6 +105,11 @@ struct TinShape {
   std::uint32_t label_rgb = 0xD9A13B;
   std::uint32_t metal_rgb = 0xBFC3C6;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("diameter_m", diameter_m).length("height_m", height_m).length("rim_m", rim_m).color("label_rgb", label_rgb);
+    visitor.color("metal_rgb", metal_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] TriangleMesh makeTin(const TinShape& shape);
@@ -94,6 +123,11 @@ struct JarShape {
   std::uint32_t body_rgb = 0xE8E2D2;
   std::uint32_t lid_rgb = 0x7A5C43;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("diameter_m", diameter_m).length("height_m", height_m).length("lid_height_m", lid_height_m);
+    visitor.color("label_rgb", label_rgb).color("body_rgb", body_rgb).color("lid_rgb", lid_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] TriangleMesh makeJar(const JarShape& shape);
@@ -105,6 +139,10 @@ struct BoxShape {
   double height_m = 0.28;
   std::uint32_t body_rgb = 0xD8B04A;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).color("body_rgb", body_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] TriangleMesh makeSmallBox(const BoxShape& shape);
@@ -121,6 +159,12 @@ struct CartonShape {
   std::uint32_t roof_rgb = 0x5B8FC7;
   std::uint32_t cap_rgb = 0xC23B33;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("roof_height_m", roof_height_m);
+    visitor.length("seam_m", seam_m).length("cap_diameter_m", cap_diameter_m).color("body_rgb", body_rgb).color("roof_rgb", roof_rgb);
+    visitor.color("cap_rgb", cap_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] TriangleMesh makeCarton(const CartonShape& shape);
@@ -134,6 +178,11 @@ struct BookShape {
   std::uint32_t cover_rgb = 0x8C2F39;
   std::uint32_t pages_rgb = 0xEFE9D8;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("board_m", board_m);
+    visitor.color("cover_rgb", cover_rgb).color("pages_rgb", pages_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] TriangleMesh makeBook(const BookShape& shape);

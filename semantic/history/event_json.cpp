@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/degrees.h"
 #include "core/base/error.h"
 #include "core/base/rfc3339.h"
-#include "semantic/model/degrees.h"
 
 namespace oikos::semantic {
 
@@ -22,7 +22,7 @@ using OrderedJson = nlohmann::ordered_json;
 OrderedJson poseJson(const Pose& pose) {
   const Eigen::Vector3d& p = pose.position_m;
   const Eigen::Vector3d& a = pose.roll_pitch_yaw_rad;
-  return OrderedJson::array({p.x(), p.y(), p.z(), toDegrees(a.x()), toDegrees(a.y()), toDegrees(a.z())});
+  return OrderedJson::array({p.x(), p.y(), p.z(), base::toDegrees(a.x()), toDegrees(a.y()), toDegrees(a.z())});
 }
 
 struct StateToJson {
@@ -31,7 +31,7 @@ struct StateToJson {
   }
   OrderedJson operator()(const FurniturePose& p) const { return {{"pose", poseJson(p.T_map_object)}}; }
   OrderedJson operator()(const JointValue& j) const {
-    return j.type == JointType::kRevolute ? OrderedJson{{"value_deg", toDegrees(j.value)}} : OrderedJson{{"value_m", j.value}};
+    return j.type == JointType::kRevolute ? OrderedJson{{"value_deg", base::toDegrees(j.value)}} : OrderedJson{{"value_m", j.value}};
   }
   OrderedJson operator()(const KnobSetting& k) const { return {{"setting", k.state}}; }
 };
@@ -205,7 +205,7 @@ OrderedJson toJson(const Event& event) {
 }
 
 State asStored(const State& state) {
-  const auto angle = [](double rad) { return toDegrees(rad) * kRadPerDeg; };
+  const auto angle = [](double rad) { return base::toDegrees(rad) * kRadPerDeg; };
   State stored = state;
   if (auto* const placement = std::get_if<Placement>(&stored)) {
     placement->T_parent_object.roll_pitch_yaw_rad = placement->T_parent_object.roll_pitch_yaw_rad.unaryExpr(angle);

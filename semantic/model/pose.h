@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/degrees.h"
+
 namespace oikos::semantic {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
+using base::kRadPerDeg;
 
 /// A pose as home.xml writes it, R = Rz(yaw) Ry(pitch) Rx(roll); what it is a pose of, and in which frame, says the name of its member.
 struct Pose {

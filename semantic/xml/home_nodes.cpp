@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "core/base/degrees.h"
 #include "core/base/enum_table.h"
 #include "core/base/number_text.h"
 #include "core/base/rfc3339.h"
-#include "semantic/model/degrees.h"
 
 namespace oikos::semantic {
 
@@ -19,7 +19,7 @@ std::string numberText(double value) {
 }
 
 std::string degreesText(double rad) {
-  return base::toText(toDegrees(rad));
+  return base::toText(base::toDegrees(rad));
 }
 
 std::string vectorText(const Eigen::Vector3d& v) {

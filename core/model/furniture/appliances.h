@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/base/degrees.h"
 #include "core/model/articulated_model.h"
 #include "core/model/furniture/options.h"
 
@@ -29,7 +29,7 @@ struct FridgeShape {
   int shelf_count = 4;
   HingeEdge hinge = HingeEdge::kRight;  ///< left or right
   double door_gap_m = 0.008;
-  double door_opening_rad = 1.9;
+  double door_opening_rad = 110.0 * base::kRadPerDeg;
   FreezerPlace freezer = FreezerPlace::kBelow;
   double freezer_height_m = 0.60;
   HandleStyle handle = HandleStyle::kBarVertical;
@@ -41,6 +41,15 @@ struct FridgeShape {
   std::uint32_t shelf_rgb = 0xB9D2D6;
   std::uint32_t plinth_rgb = 0x2E2E30;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("wall_m", wall_m);
+    visitor.length("door_m", door_m).length("plinth_height_m", plinth_height_m).count("shelf_count", shelf_count).choice("hinge", hinge);
+    visitor.length("door_gap_m", door_gap_m).angle("door_opening_deg", door_opening_rad).choice("freezer", freezer);
+    visitor.length("freezer_height_m", freezer_height_m).choice("handle", handle).length("handle_length_m", handle_length_m);
+    visitor.length("handle_offset_m", handle_offset_m).color("body_rgb", body_rgb).color("front_rgb", front_rgb);
+    visitor.color("handle_rgb", handle_rgb).color("shelf_rgb", shelf_rgb).color("plinth_rgb", plinth_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeFridge(const FridgeShape& shape);
@@ -60,7 +69,7 @@ struct OvenShape {
   int rack_count = 2;
   int hob_plate_count = 4;  ///< 0: no hob; 1 to 4
   double door_gap_m = 0.004;
-  double door_opening_rad = std::numbers::pi / 2.0;
+  double door_opening_rad = 90.0 * base::kRadPerDeg;
   double window_ratio = 0.6;  ///< of the window's sides to the door's; 0: none
   HandleStyle handle = HandleStyle::kBarHorizontal;
   double handle_length_m = 0.42;
@@ -68,7 +77,7 @@ struct OvenShape {
   int knob_count = 5;
   double knob_radius_m = 0.021;
   int knob_state_count = 10;
-  double knob_range_rad = 1.5 * std::numbers::pi;
+  double knob_range_rad = 270.0 * base::kRadPerDeg;
   std::uint32_t body_rgb = 0xE3E3E1;
   std::uint32_t front_rgb = 0xCFD1D2;
   std::uint32_t panel_rgb = 0xB4B7B9;
@@ -80,6 +89,19 @@ struct OvenShape {
   std::uint32_t knob_rgb = 0x2C2C2E;
   std::uint32_t mark_rgb = 0xF4F4F4;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("bottom_m", bottom_m);
+    visitor.length("wall_m", wall_m).length("door_m", door_m).length("plinth_height_m", plinth_height_m);
+    visitor.length("lower_front_height_m", lower_front_height_m).length("panel_height_m", panel_height_m).count("rack_count", rack_count);
+    visitor.count("hob_plate_count", hob_plate_count).length("door_gap_m", door_gap_m).angle("door_opening_deg", door_opening_rad);
+    visitor.ratio("window_ratio", window_ratio).choice("handle", handle).length("handle_length_m", handle_length_m);
+    visitor.length("handle_offset_m", handle_offset_m).count("knob_count", knob_count).length("knob_radius_m", knob_radius_m);
+    visitor.count("knob_state_count", knob_state_count).angle("knob_range_deg", knob_range_rad).color("body_rgb", body_rgb);
+    visitor.color("front_rgb", front_rgb).color("panel_rgb", panel_rgb).color("inside_rgb", inside_rgb).color("glass_rgb", glass_rgb);
+    visitor.color("hob_rgb", hob_rgb).color("plate_rgb", plate_rgb).color("handle_rgb", handle_rgb).color("knob_rgb", knob_rgb);
+    visitor.color("mark_rgb", mark_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeOven(const OvenShape& shape);
@@ -96,7 +118,7 @@ struct DishwasherShape {
   int basket_count = 2;
   double basket_ratio = 0.8;  ///< how much of its depth a basket comes out
   double door_gap_m = 0.004;
-  double door_opening_rad = std::numbers::pi / 2.0;
+  double door_opening_rad = 90.0 * base::kRadPerDeg;
   HandleStyle handle = HandleStyle::kRecessed;
   double handle_length_m = 0.25;
   double handle_offset_m = 0.05;
@@ -107,6 +129,15 @@ struct DishwasherShape {
   std::uint32_t basket_rgb = 0x7C8B96;
   std::uint32_t plinth_rgb = 0x55524E;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("wall_m", wall_m);
+    visitor.length("door_m", door_m).length("plinth_height_m", plinth_height_m).length("panel_height_m", panel_height_m);
+    visitor.count("basket_count", basket_count).ratio("basket_ratio", basket_ratio).length("door_gap_m", door_gap_m);
+    visitor.angle("door_opening_deg", door_opening_rad).choice("handle", handle).length("handle_length_m", handle_length_m);
+    visitor.length("handle_offset_m", handle_offset_m).color("body_rgb", body_rgb).color("front_rgb", front_rgb);
+    visitor.color("panel_rgb", panel_rgb).color("handle_rgb", handle_rgb).color("basket_rgb", basket_rgb).color("plinth_rgb", plinth_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeDishwasher(const DishwasherShape& shape);

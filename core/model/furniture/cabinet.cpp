@@ -154,7 +154,7 @@ std::vector<std::string> CabinetShape::validate() const {
   ShapeRules rules("furniture");
   checkBody(rules, *this);
   rules.between("shelf_count", shelf_count, 0, 50).between("door_count", door_count, 0, 2);
-  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).between("door_opening_rad", door_opening_rad, 0.1, 3.2);
+  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).angle("door_opening_deg", door_opening_rad, 5.0, 183.0);
   rules.length("handle_length_m", handle_length_m).between("handle_level", handle_level, 0.0, 1.0);
   rules.between("handle_offset_m", handle_offset_m, 0.0, 100.0);
   if (!rules.messages().empty()) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/degrees.h"
 #include "core/model/articulated_model.h"
 #include "core/model/furniture/options.h"
 
@@ -22,10 +23,10 @@ struct CabinetShape {
   double back_m = 0.008;
   double plinth_height_m = 0.10;
   int shelf_count = 1;
-  int door_count = 1;                  ///< 0, 1 or 2
-  HingeEdge hinge = HingeEdge::kLeft;  ///< of a single door; two hang at the left and the right
-  double door_gap_m = 0.003;           ///< between neighbouring doors; half of it at the body's edges
-  double door_opening_rad = 1.9;       ///< the joints' upper limit; a door that is hinged at its bottom stops level at the latest
+  int door_count = 1;                                  ///< 0, 1 or 2
+  HingeEdge hinge = HingeEdge::kLeft;                  ///< of a single door; two hang at the left and the right
+  double door_gap_m = 0.003;                           ///< between neighbouring doors; half of it at the body's edges
+  double door_opening_rad = 110.0 * base::kRadPerDeg;  ///< the joints' upper limit; a bottom-hinged door stops level
   HandleStyle handle = HandleStyle::kBarVertical;
   double handle_length_m = 0.16;
   double handle_offset_m = 0.04;     ///< from the edge across from the hinge to the handle's middle, or its near end if it runs across
@@ -38,6 +39,17 @@ struct CabinetShape {
   std::uint32_t plinth_rgb = 0x55524E;
   std::uint32_t worktop_rgb = 0x7A5C43;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("bottom_m", bottom_m);
+    visitor.length("board_m", board_m).length("back_m", back_m).length("plinth_height_m", plinth_height_m);
+    visitor.count("shelf_count", shelf_count).count("door_count", door_count).choice("hinge", hinge).length("door_gap_m", door_gap_m);
+    visitor.angle("door_opening_deg", door_opening_rad).choice("handle", handle).length("handle_length_m", handle_length_m);
+    visitor.length("handle_offset_m", handle_offset_m).ratio("handle_level", handle_level);
+    visitor.length("worktop_thickness_m", worktop_thickness_m).length("worktop_overhang_m", worktop_overhang_m);
+    visitor.color("body_rgb", body_rgb).color("front_rgb", front_rgb).color("handle_rgb", handle_rgb).color("plinth_rgb", plinth_rgb);
+    visitor.color("worktop_rgb", worktop_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 
@@ -69,6 +81,17 @@ struct DrawerUnitShape {
   std::uint32_t plinth_rgb = 0x55524E;
   std::uint32_t worktop_rgb = 0x7A5C43;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("bottom_m", bottom_m);
+    visitor.length("board_m", board_m).length("back_m", back_m).length("plinth_height_m", plinth_height_m);
+    visitor.count("drawer_count", drawer_count).lengths("front_heights_m", front_heights_m).length("drawer_gap_m", drawer_gap_m);
+    visitor.length("side_play_m", side_play_m).ratio("extension_ratio", extension_ratio).choice("handle", handle);
+    visitor.length("handle_length_m", handle_length_m).length("worktop_thickness_m", worktop_thickness_m);
+    visitor.length("worktop_overhang_m", worktop_overhang_m).color("body_rgb", body_rgb).color("front_rgb", front_rgb);
+    visitor.color("drawer_rgb", drawer_rgb).color("handle_rgb", handle_rgb).color("plinth_rgb", plinth_rgb);
+    visitor.color("worktop_rgb", worktop_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 

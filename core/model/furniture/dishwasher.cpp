@@ -88,7 +88,7 @@ std::vector<std::string> DishwasherShape::validate() const {
   rules.length("door_m", door_m).length("handle_length_m", handle_length_m);
   rules.between("plinth_height_m", plinth_height_m, 0.0, 1.0).between("panel_height_m", panel_height_m, 0.0, 1.0);
   rules.between("basket_count", basket_count, 0, 4).between("basket_ratio", basket_ratio, 0.05, 1.0);
-  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).between("door_opening_rad", door_opening_rad, 0.1, 1.6);
+  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).angle("door_opening_deg", door_opening_rad, 5.0, 92.0);
   rules.between("handle_offset_m", handle_offset_m, 0.0, 100.0);
   rules.color("body_rgb", body_rgb).color("front_rgb", front_rgb).color("panel_rgb", panel_rgb).color("handle_rgb", handle_rgb);
   rules.color("basket_rgb", basket_rgb).color("plinth_rgb", plinth_rgb);

@@ -61,9 +61,9 @@ std::vector<std::string> FridgeShape::validate() const {
   rules.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("wall_m", wall_m);
   rules.length("door_m", door_m).length("handle_length_m", handle_length_m);
   rules.between("plinth_height_m", plinth_height_m, 0.0, 1.0).between("shelf_count", shelf_count, 0, 30);
-  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).between("door_opening_rad", door_opening_rad, 0.1, 3.2);
+  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).angle("door_opening_deg", door_opening_rad, 5.0, 183.0);
   rules.between("handle_offset_m", handle_offset_m, 0.0, 100.0);
-  rules.require(hinge == HingeEdge::kLeft || hinge == HingeEdge::kRight, "hinge", static_cast<int>(hinge), "must be left or right");
+  rules.require(hinge == HingeEdge::kLeft || hinge == HingeEdge::kRight, "hinge", hinge, "must be left or right");
   rules.color("body_rgb", body_rgb).color("front_rgb", front_rgb).color("handle_rgb", handle_rgb);
   rules.color("shelf_rgb", shelf_rgb).color("plinth_rgb", plinth_rgb);
   if (!rules.messages().empty()) {

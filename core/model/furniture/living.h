@@ -21,6 +21,12 @@ struct TableShape {
   std::uint32_t top_rgb = 0xB58A5A;
   std::uint32_t leg_rgb = 0x9C7448;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("top_m", top_m);
+    visitor.length("leg_m", leg_m).length("leg_inset_m", leg_inset_m).length("apron_height_m", apron_height_m).color("top_rgb", top_rgb);
+    visitor.color("leg_rgb", leg_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeTable(const TableShape& shape);
@@ -37,6 +43,12 @@ struct ChairShape {
   std::uint32_t seat_rgb = 0xB58A5A;
   std::uint32_t leg_rgb = 0x9C7448;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("seat_height_m", seat_height_m);
+    visitor.length("seat_m", seat_m).length("leg_m", leg_m).length("back_board_m", back_board_m);
+    visitor.count("back_board_count", back_board_count).color("seat_rgb", seat_rgb).color("leg_rgb", leg_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeChair(const ChairShape& shape);
@@ -55,6 +67,12 @@ struct SofaShape {
   std::uint32_t cushion_rgb = 0x71808E;
   std::uint32_t foot_rgb = 0x3B2F26;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("seat_height_m", seat_height_m);
+    visitor.length("arm_width_m", arm_width_m).length("arm_height_m", arm_height_m).length("back_m", back_m).length("foot_m", foot_m);
+    visitor.count("seat_count", seat_count).color("body_rgb", body_rgb).color("cushion_rgb", cushion_rgb).color("foot_rgb", foot_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeSofa(const SofaShape& shape);
@@ -73,6 +91,13 @@ struct BedShape {
   std::uint32_t mattress_rgb = 0xE7E4DC;
   std::uint32_t pillow_rgb = 0xF7F5EF;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("mattress_top_m", mattress_top_m);
+    visitor.length("mattress_m", mattress_m).length("board_m", board_m).length("rail_height_m", rail_height_m);
+    visitor.count("pillow_count", pillow_count).color("frame_rgb", frame_rgb).color("mattress_rgb", mattress_rgb);
+    visitor.color("pillow_rgb", pillow_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeBed(const BedShape& shape);
@@ -87,6 +112,11 @@ struct ShelfShape {
   int level_count = 5;    ///< boards to put things on, with the lowest and without the top
   std::uint32_t body_rgb = 0xC9A878;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("bottom_m", bottom_m);
+    visitor.length("board_m", board_m).length("back_m", back_m).count("level_count", level_count).color("body_rgb", body_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeShelf(const ShelfShape& shape);
@@ -102,6 +132,11 @@ struct CounterShape {
   std::uint32_t worktop_rgb = 0x7A5C43;
   std::uint32_t body_rgb = 0xEDEBE6;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("top_m", top_m);
+    visitor.length("board_m", board_m).length("overhang_m", overhang_m).color("worktop_rgb", worktop_rgb).color("body_rgb", body_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeCounter(const CounterShape& shape);
@@ -117,6 +152,12 @@ struct LampShape {
   std::uint32_t foot_rgb = 0x3A3A3C;
   std::uint32_t shade_rgb = 0xF0E2C0;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("height_m", height_m).length("shade_height_m", shade_height_m);
+    visitor.ratio("shade_top_ratio", shade_top_ratio).length("foot_width_m", foot_width_m).length("pole_m", pole_m);
+    visitor.color("foot_rgb", foot_rgb).color("shade_rgb", shade_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeLamp(const LampShape& shape);
@@ -132,6 +173,11 @@ struct TvShape {
   std::uint32_t body_rgb = 0x1D1D1F;
   std::uint32_t screen_rgb = 0x0C1014;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("panel_m", panel_m);
+    visitor.length("foot_height_m", foot_height_m).length("frame_m", frame_m).color("body_rgb", body_rgb).color("screen_rgb", screen_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeTv(const TvShape& shape);
@@ -144,6 +190,11 @@ struct RugShape {
   std::uint32_t middle_rgb = 0xA65E4E;
   std::uint32_t border_rgb = 0xD9C7A3;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("border_m", border_m);
+    visitor.color("middle_rgb", middle_rgb).color("border_rgb", border_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeRug(const RugShape& shape);

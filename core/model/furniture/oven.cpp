@@ -143,10 +143,10 @@ std::vector<std::string> OvenShape::validate() const {
   rules.length("knob_radius_m", knob_radius_m).between("bottom_m", bottom_m, 0.0, 10.0);
   rules.between("plinth_height_m", plinth_height_m, 0.0, 1.0).between("lower_front_height_m", lower_front_height_m, 0.0, 1.0);
   rules.between("rack_count", rack_count, 0, 6).between("hob_plate_count", hob_plate_count, 0, 4);
-  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).between("door_opening_rad", door_opening_rad, 0.1, 1.6);
+  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).angle("door_opening_deg", door_opening_rad, 5.0, 92.0);
   rules.between("window_ratio", window_ratio, 0.0, 0.9).between("handle_offset_m", handle_offset_m, 0.0, 100.0);
   rules.between("knob_count", knob_count, 0, 12).between("knob_state_count", knob_state_count, 2, 100);
-  rules.between("knob_range_rad", knob_range_rad, 0.1, 6.2);
+  rules.angle("knob_range_deg", knob_range_rad, 5.0, 355.0);
   rules.color("body_rgb", body_rgb).color("front_rgb", front_rgb).color("panel_rgb", panel_rgb).color("inside_rgb", inside_rgb);
   rules.color("glass_rgb", glass_rgb).color("hob_rgb", hob_rgb).color("plate_rgb", plate_rgb).color("handle_rgb", handle_rgb);
   rules.color("knob_rgb", knob_rgb).color("mark_rgb", mark_rgb);

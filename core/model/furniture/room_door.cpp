@@ -70,8 +70,8 @@ std::vector<std::string> RoomDoorShape::validate() const {
   rules.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("jamb_m", jamb_m);
   rules.length("leaf_m", leaf_m).length("lever_length_m", lever_length_m).between("lever_height_m", lever_height_m, 0.1, 10.0);
   rules.between("door_gap_m", door_gap_m, 0.0, 0.1).between("floor_gap_m", floor_gap_m, 0.0, 0.1);
-  rules.between("door_opening_rad", door_opening_rad, 0.1, 3.2).between("lever_offset_m", lever_offset_m, 0.03, 1.0);
-  rules.require(hinge == HingeEdge::kLeft || hinge == HingeEdge::kRight, "hinge", static_cast<int>(hinge), "must be left or right");
+  rules.angle("door_opening_deg", door_opening_rad, 5.0, 183.0).between("lever_offset_m", lever_offset_m, 0.03, 1.0);
+  rules.require(hinge == HingeEdge::kLeft || hinge == HingeEdge::kRight, "hinge", hinge, "must be left or right");
   rules.color("frame_rgb", frame_rgb).color("front_rgb", front_rgb).color("handle_rgb", handle_rgb);
   if (!rules.messages().empty()) {
     return rules.messages();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/degrees.h"
 #include "core/model/articulated_model.h"
 #include "core/model/furniture/options.h"
 
@@ -21,7 +22,7 @@ struct RoomDoorShape {
   double door_gap_m = 0.004;
   double floor_gap_m = 0.008;
   HingeEdge hinge = HingeEdge::kLeft;  ///< left or right, seen from the front
-  double door_opening_rad = 1.9;
+  double door_opening_rad = 110.0 * base::kRadPerDeg;
   double lever_height_m = 1.05;
   double lever_length_m = 0.12;
   double lever_offset_m = 0.06;  ///< from the leaf's free edge to the lever's spindle
@@ -29,6 +30,14 @@ struct RoomDoorShape {
   std::uint32_t front_rgb = 0xF1EFEA;
   std::uint32_t handle_rgb = 0x8C9094;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("jamb_m", jamb_m);
+    visitor.length("leaf_m", leaf_m).length("door_gap_m", door_gap_m).length("floor_gap_m", floor_gap_m).choice("hinge", hinge);
+    visitor.angle("door_opening_deg", door_opening_rad).length("lever_height_m", lever_height_m).length("lever_length_m", lever_length_m);
+    visitor.length("lever_offset_m", lever_offset_m).color("frame_rgb", frame_rgb).color("front_rgb", front_rgb);
+    visitor.color("handle_rgb", handle_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeRoomDoor(const RoomDoorShape& shape);

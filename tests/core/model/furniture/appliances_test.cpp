@@ -138,7 +138,7 @@ TEST(Appliances, SayWhatIsWrong) {
   EXPECT_TRUE(FridgeShape{}.validate().empty());
   EXPECT_TRUE(OvenShape{}.validate().empty());
   EXPECT_TRUE(DishwasherShape{}.validate().empty());
-  EXPECT_EQ(FridgeShape{.hinge = HingeEdge::kTop}.validate().front(), "furniture.hinge = 2: must be left or right");
+  EXPECT_EQ(FridgeShape{.hinge = HingeEdge::kTop}.validate().front(), "furniture.hinge = top: must be left or right");
   EXPECT_EQ(FridgeShape{.freezer_height_m = 3.0}.validate().front(),
             "furniture.freezer_height_m = 3: must leave room behind each door between the walls");
   EXPECT_EQ(OvenShape{.knob_radius_m = 0.1}.validate().front(), "furniture.knob_radius_m = 0.1: must let all knobs turn on the panel");
