@@ -22,7 +22,7 @@ using OrderedJson = nlohmann::ordered_json;
 OrderedJson poseJson(const Pose& pose) {
   const Eigen::Vector3d& p = pose.position_m;
   const Eigen::Vector3d& a = pose.roll_pitch_yaw_rad;
-  return OrderedJson::array({p.x(), p.y(), p.z(), base::toDegrees(a.x()), toDegrees(a.y()), toDegrees(a.z())});
+  return OrderedJson::array({p.x(), p.y(), p.z(), base::toDegrees(a.x()), base::toDegrees(a.y()), base::toDegrees(a.z())});
 }
 
 struct StateToJson {

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/model/mesh_file.h"
 #include "core/model/primitives.h"
+#include "core/model/shape_text.h"
 
 namespace oikos::semantic {
 
@@ -182,6 +183,14 @@ std::vector<double> jointValues(const LargeObject& object) {
     }
   }
   return values;
+}
+
+ArticulatedModel makeShape(const Shape& shape, const std::string& where) {
+  model::Dimensions dimensions;
+  for (const Property& dimension : shape.dimensions) {
+    dimensions.emplace_back(dimension.name, dimension.value);
+  }
+  return model::makeShape(shape.kind, dimensions, where);
 }
 
 std::string shapePartName(const ObjectId& object, const PartId& part) {

@@ -112,6 +112,16 @@ std::optional<double> Attributes::hours(std::string_view name) const {
   return value;
 }
 
+std::int64_t Attributes::count(std::string_view name) const {
+  constexpr double kMost = 9'007'199'254'740'992.0;  // up to which a double counts without a gap
+  const double value = number(name).value_or(0.0);
+  if (value >= 0.0 && value <= kMost && value == std::floor(value)) {
+    return static_cast<std::int64_t>(value);
+  }
+  refuse(name, quoted(text(name)), "a whole number from 0 to 9007199254740992");
+  return 0;
+}
+
 std::vector<Eigen::Vector2d> Attributes::polygon(std::string_view name) const {
   std::vector<double> numbers;
   std::string_view rest = find(name).value_or("");

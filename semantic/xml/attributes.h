@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +30,7 @@ class Attributes {
   [[nodiscard]] std::optional<double> length(std::string_view name) const;  ///< not negative
   [[nodiscard]] std::optional<double> share(std::string_view name) const;   ///< from 0 to 1
   [[nodiscard]] std::optional<double> hours(std::string_view name) const;   ///< above 0, at most a century
+  [[nodiscard]] std::int64_t count(std::string_view name) const;            ///< whole, from 0 to 2^53; 0 if it is not there
   [[nodiscard]] std::vector<Eigen::Vector2d> polygon(std::string_view name) const;
   [[nodiscard]] bool flag(std::string_view name) const { return find(name) == "true" || find(name) == "1"; }
   [[nodiscard]] Pose pose(std::string_view name) const;

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -109,9 +110,9 @@ class Builder {
   void apartment(const Attributes& a) {
     home_.id = a.text("id");
     home_.name = a.text("name");
-    home_.version = static_cast<int>(a.number("version").value_or(0));
+    home_.version = static_cast<int>(std::min<std::int64_t>(a.count("version"), std::numeric_limits<int>::max()));
     home_.time_zone = std::string(a.find("timeZone").value_or("UTC"));
-    home_.as_of = static_cast<std::int64_t>(a.number("asOf").value_or(0));
+    home_.as_of = a.count("asOf");
   }
 
   void dock(const Attributes& a) { home_.T_map_dock = a.pose("pose"); }
