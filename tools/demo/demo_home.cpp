@@ -170,6 +170,10 @@ Room makeHall() {
   hall.put(picture("hall-picture-1", 0.6, 0.45), {0.35, 0.885, -90.0, 1.4});
   hall.put(picture("hall-picture-2", 0.5, 0.7), {3.6, -0.685, 90.0, 1.25});
   hall.put(picture("hall-picture-3", 0.7, 0.5), {5.0, -0.685, 90.0, 1.35});
+  hall.put(picture("hall-picture-4", 0.5, 0.5), {-0.585, -0.3, 0.0, 1.2});
+  hall.put(picture("hall-picture-5", 0.4, 0.6), {2.35, 0.885, -90.0, 1.3});
+  hall.put(picture("hall-picture-6", 0.7, 0.5), {0.6, -0.685, 90.0, 1.2});
+  hall.put(picture("hall-picture-7", 0.45, 0.6), {5.75, -0.685, 90.0, 1.1});
   return hall.take();
 }
 

@@ -49,7 +49,8 @@ constexpr std::array kDresses = {
     Dress{"oven", "panel", TextureKind::kBrushedMetal, 0.3F},
     Dress{"oven", "hob", TextureKind::kStone, 0.6F},
     Dress{"dishwasher", "front", TextureKind::kBrushedMetal, 0.25F},
-    Dress{"door", "", TextureKind::kWood, 0.1F},
+    Dress{"door", "handle", std::nullopt, 0.6F},
+    Dress{"door", "", TextureKind::kPlaster, 0.1F},
     Dress{"", "glass", std::nullopt, 0.9F},
     Dress{"", "screen", std::nullopt, 0.8F},
     Dress{"", "handle", std::nullopt, 0.6F},
@@ -138,7 +139,7 @@ void dressShell(model::TriangleMesh& shell, const std::string& room_type, std::u
   setTexture(floor, has_tiles ? TextureKind::kTiles : TextureKind::kPlanks, camera::mixBits(seed + 1), 1024);
   model::Material& walls = shell.materials[kWallMaterial];
   walls.color_rgb = wallColor(seed);
-  const bool is_papered = !has_tiles && camera::mixBits(seed + 2) % 2 == 0;
+  const bool is_papered = !has_tiles;
   setTexture(walls, is_papered ? TextureKind::kWallpaper : TextureKind::kPlaster, camera::mixBits(seed + 3), 1024);
   model::Material& ceiling = shell.materials[kCeilingMaterial];
   ceiling.color_rgb.setConstant(0.93F);

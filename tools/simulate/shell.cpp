@@ -162,6 +162,16 @@ void addWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const RoomShell
 
 }  // namespace
 
+model::TriangleMesh makeThreshold(const WallOpening& opening) {
+  constexpr double kHalfDepth_m = 0.08;
+  const Eigen::Vector2d along = (opening.to_map - opening.from_map).normalized();
+  const Eigen::Vector2d across = kHalfDepth_m * Eigen::Vector2d(-along.y(), along.x());
+  ShellBuilder builder;
+  builder.addFlat({opening.from_map - across, opening.to_map - across, opening.to_map + across, opening.from_map + across}, 0.002,
+                  kFloorMaterial);
+  return std::move(builder.mesh);
+}
+
 model::TriangleMesh makeShell(const RoomShell& shell) {
   ShellBuilder builder;
   const std::vector<Eigen::Vector2d> outline = oriented(shell.outline_map);

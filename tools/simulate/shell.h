@@ -25,6 +25,9 @@ struct RoomShell {
 /// Materials of a shell's mesh.
 enum ShellMaterial : std::uint32_t { kFloorMaterial, kCeilingMaterial, kWallMaterial, kSkirtingMaterial, kShellMaterialCount };
 
+/// The floor within a doorway, between the floors of two rooms.
+[[nodiscard]] model::TriangleMesh makeThreshold(const WallOpening& opening);
+
 /// Floor, ceiling, walls and skirting of a room as they are seen from inside; texture coordinates are metres, of walls along them and up.
 [[nodiscard]] model::TriangleMesh makeShell(const RoomShell& shell);
 

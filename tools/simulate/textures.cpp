@@ -77,50 +77,71 @@ cv::Mat paintPlanks(const Dice& dice, int size_px) {
     const double in_row = y * kRows - row;
     const double in_plank = along - std::floor(along);
     const bool is_gap = in_row < 0.02 || in_plank < 0.004;
-    const double tone = 0.8 + 0.35 * (dice.at(static_cast<std::uint64_t>(row), plank, 8) - 0.5);
-    return is_gap ? 0.3 : tone * grain(dice, x, y, 100 + 2 * static_cast<std::uint64_t>(row)) / 0.85;
+    const double tone = 0.8 + 0.5 * (dice.at(static_cast<std::uint64_t>(row), plank, 8) - 0.5);
+    const double knot = valueNoise(dice, x * 40.0, y * 64.0, {40, 64}, 11) > 0.94 ? 0.35 : 0.0;
+    return is_gap ? 0.3 : tone * grain(dice, x, y, 100 + 2 * static_cast<std::uint64_t>(row)) / 0.85 - knot;
   });
 }
 
 cv::Mat paintTiles(const Dice& dice, int size_px) {
-  constexpr int kTiles = 5;
+  constexpr int kTiles = 12;
   return paintShades(size_px, [&](double x, double y) {
     const double in_x = x * kTiles - std::floor(x * kTiles);
     const double in_y = y * kTiles - std::floor(y * kTiles);
-    if (std::min(in_x, in_y) < 0.025) {
+    if (std::min(in_x, in_y) < 0.03) {
       return 0.55 + 0.1 * fractalNoise(dice, x, y, {40, 40}, 3);
     }
     const auto column = static_cast<std::uint64_t>(x * kTiles);
     const auto row = static_cast<std::uint64_t>(y * kTiles);
+    const double off_x = std::abs(in_x - 0.5);
+    const double off_y = std::abs(in_y - 0.5);
+    const double turn = dice.at(column, row, 12);
+    const bool has_ornament = dice.at(column, row, 13) < 0.45;
+    const double ring = turn < 0.5 ? off_x + off_y : std::max(off_x, off_y) + 0.6 * off_x * off_y;
+    const double ornament = has_ornament && std::abs(ring - 0.15 - 0.25 * turn) < 0.035 ? 0.35 : 0.0;
     const double cloud = fractalNoise(dice, x, y, {10, 10}, 4);
     const double vein = std::abs(fractalNoise(dice, x, y, {7, 7}, 5) - 0.5) < 0.012 ? 0.2 : 0.0;
-    return 0.82 + 0.14 * (dice.at(column, row, 6) - 0.5) + 0.18 * (cloud - 0.5) - vein;
+    return 0.82 + 0.14 * (dice.at(column, row, 6) - 0.5) + 0.18 * (cloud - 0.5) - vein - ornament;
   });
+}
+
+/// Leaves of one size, scattered about a lattice, each turned in its own way.
+double leaves(const Dice& dice, double x, double y, int cells, std::uint64_t use) {
+  double shade = 0.0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const int column = static_cast<int>(std::floor(x * cells)) + dx;
+      const int row = static_cast<int>(std::floor(y * cells)) + dy;
+      const auto a = static_cast<std::uint64_t>(wrapped(column, cells));
+      const auto b = static_cast<std::uint64_t>(wrapped(row, cells)) + 1000 * use;
+      const double across = x * cells - column - 0.2 - 0.6 * dice.at(a, b, 20);
+      const double down = y * cells - row - 0.2 - 0.6 * dice.at(a, b, 21);
+      const double turn = 2.0 * std::numbers::pi * dice.at(a, b, 22);
+      const double length = 0.18 + 0.25 * dice.at(a, b, 23);
+      const double p = (across * std::cos(turn) + down * std::sin(turn)) / length;
+      const double q = (-across * std::sin(turn) + down * std::cos(turn)) / (0.4 * length);
+      if (p * p + q * q < 1.0) {
+        shade = std::abs(q) < 0.12 ? 0.08 : 0.2 + 0.22 * dice.at(a, b, 24);
+      }
+    }
+  }
+  return shade;
 }
 
 cv::Mat paintWallpaper(const Dice& dice, int size_px) {
   return paintShades(size_px, [&](double x, double y) {
-    // Leaves that are scattered about a lattice, each turned in its own way.
-    constexpr int kCells = 6;
-    double shade = 0.93 + 0.05 * (fractalNoise(dice, x, y, {32, 32}, 2) - 0.5);
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int column = static_cast<int>(std::floor(x * kCells)) + dx;
-        const int row = static_cast<int>(std::floor(y * kCells)) + dy;
-        const auto a = static_cast<std::uint64_t>(wrapped(column, kCells));
-        const auto b = static_cast<std::uint64_t>(wrapped(row, kCells));
-        const double across = x * kCells - column - 0.2 - 0.6 * dice.at(a, b, 20);
-        const double down = y * kCells - row - 0.2 - 0.6 * dice.at(a, b, 21);
-        const double turn = 2.0 * std::numbers::pi * dice.at(a, b, 22);
-        const double length = 0.2 + 0.25 * dice.at(a, b, 23);
-        const double p = (across * std::cos(turn) + down * std::sin(turn)) / length;
-        const double q = (-across * std::sin(turn) + down * std::cos(turn)) / (0.4 * length);
-        if (p * p + q * q < 1.0) {
-          shade = std::abs(q) < 0.1 ? 0.9 : 0.66 + 0.16 * dice.at(a, b, 24);
-        }
-      }
-    }
-    return shade;
+    const double paper = 0.95 + 0.06 * (fractalNoise(dice, x, y, {32, 32}, 2) - 0.5);
+    return paper - std::max(leaves(dice, x, y, 13, 1), 0.7 * leaves(dice, x, y, 31, 2));
+  });
+}
+
+/// Strokes of a roller, stains, and the dents and hairs of many years.
+cv::Mat paintPlaster(const Dice& dice, int size_px) {
+  return paintShades(size_px, [&](double x, double y) {
+    const double rough = 0.12 * (fractalNoise(dice, x, y, {24, 24}, 1) - 0.5) + 0.12 * (fractalNoise(dice, x, y, {160, 160}, 3) - 0.5);
+    const double stain = 0.14 * (fractalNoise(dice, x, y, {3, 3}, 2) - 0.5);
+    const double dent = valueNoise(dice, x * 96.0, y * 96.0, {96, 96}, 9) > 0.93 ? 0.16 : 0.0;
+    return 0.92 + rough + stain - dent;
   });
 }
 
@@ -185,9 +206,7 @@ cv::Mat makeTexture(TextureKind kind, std::uint64_t seed, int size_px) {
     case TextureKind::kTiles:
       return paintTiles(dice, size_px);
     case TextureKind::kPlaster:
-      return paintShades(size_px, [&](double x, double y) {
-        return 0.9 + 0.12 * (fractalNoise(dice, x, y, {24, 24}, 1) - 0.5) + 0.1 * (fractalNoise(dice, x, y, {3, 3}, 2) - 0.5);
-      });
+      return paintPlaster(dice, size_px);
     case TextureKind::kWallpaper:
       return paintWallpaper(dice, size_px);
     case TextureKind::kFabric:

@@ -87,6 +87,11 @@ World::World(const Home& home, const WorldLook& look) {
 void World::addRooms(const Home& home, const WorldLook& look) {
   semantic::ModelMaker maker(look.home_folder);
   const std::vector<WallOpening> openings = openingsOf(home, maker);
+  for (const WallOpening& opening : openings) {
+    auto threshold = std::make_shared<model::TriangleMesh>(makeThreshold(opening));
+    dressShell(*threshold, "", look.seed);
+    scene_.add(threshold, Eigen::Isometry3d::Identity());
+  }
   for (const Room& room : home.rooms) {
     if (room.outline_map.size() < 3) {
       continue;
