@@ -60,6 +60,7 @@ void addEvaluateCommand(CLI::App& root);
 void addForgetCommand(CLI::App& root);
 void addInspectCommand(CLI::App& root);
 void addMapCommand(CLI::App& root);
+void addModelCommand(CLI::App& root);
 void addRevertCommand(CLI::App& root);
 void addServeCommand(CLI::App& root);
 void addSimulateCommand(CLI::App& root);

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   oikos::tools::addSimulateCommand(program.root());
   oikos::tools::addRevertCommand(program.root());
   oikos::tools::addForgetCommand(program.root());
+  oikos::tools::addModelCommand(program.root());
   oikos::tools::addEvaluateCommand(program.root());
   return static_cast<int>(program.run(argc, argv));
 }

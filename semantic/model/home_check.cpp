@@ -13,6 +13,8 @@
 
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
+#include "core/model/shapes/shape_text.h"
+#include "semantic/model/home_models.h"
 #include "semantic/model/outline.h"
 #include "semantic/model/placement.h"
 #include "semantic/model/relations.h"
@@ -169,9 +171,18 @@ class Checker {
     if (object.articulation) {
       checkArticulation(*object.articulation, object, element);
     }
+    checkShape(object.shape, element, line);
     checkGraspingPoints(object.grasping_points, object, element, line);
     for (const SmallObject& small : object.small_objects) {
       checkCarried(small, object);
+    }
+  }
+
+  void checkShape(const std::optional<CopyOnWrite<Shape>>& shape, const std::string& element, int line) {
+    if (shape) {
+      for (const std::string& fault : model::validateShape((*shape)->kind, dimensionsOf(**shape))) {
+        error(line, element, "shape: " + fault, "");
+      }
     }
   }
 
@@ -310,6 +321,7 @@ class Checker {
         checkWord(TermKind::kColor, property.value, element, line);
       }
     }
+    checkShape(small.shape, element, line);
     if (small.default_places.empty()) {
       error(line, element, "no default place", "at least one <defaultPlace>");
     }

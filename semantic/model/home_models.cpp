@@ -2,12 +2,14 @@
 #include "semantic/model/home_models.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/model/mesh_file.h"
 #include "core/model/primitives.h"
-#include "core/model/shape_text.h"
+#include "core/model/shapes/shape_text.h"
 
 namespace oikos::semantic {
 
@@ -114,6 +116,17 @@ std::size_t fixedParts(const Articulation& articulation) {
   }));
 }
 
+/// Without what only rounding has left behind the 12th decimal: it will be written into a file.
+double tidied(double value) {
+  return std::round(value * 1e12) / 1e12 + 0.0;
+}
+
+Pose tidiedPose(const Eigen::Isometry3d& T_a_b) {
+  Pose pose = Pose::fromIsometry(T_a_b);
+  pose.position_m = pose.position_m.unaryExpr(&tidied);
+  return pose;
+}
+
 }  // namespace
 
 ArticulatedModel ModelMaker::make(const LargeObject& object) {
@@ -171,6 +184,18 @@ void ModelMaker::addPart(const LargeObject& object, const Part& part, const Arti
   made.parts.push_back({part.id.value, std::move(mesh)});
 }
 
+model::Dimensions dimensionsOf(const Shape& shape) {
+  model::Dimensions dimensions;
+  for (const Property& dimension : shape.dimensions) {
+    dimensions.emplace_back(dimension.name, dimension.value);
+  }
+  return dimensions;
+}
+
+ArticulatedModel makeShape(const Shape& shape, const std::string& where) {
+  return model::makeShape(shape.kind, dimensionsOf(shape), where);
+}
+
 std::vector<double> jointValues(const LargeObject& object) {
   std::vector<double> values;
   if (object.articulation) {
@@ -183,14 +208,6 @@ std::vector<double> jointValues(const LargeObject& object) {
     }
   }
   return values;
-}
-
-ArticulatedModel makeShape(const Shape& shape, const std::string& where) {
-  model::Dimensions dimensions;
-  for (const Property& dimension : shape.dimensions) {
-    dimensions.emplace_back(dimension.name, dimension.value);
-  }
-  return model::makeShape(shape.kind, dimensions, where);
 }
 
 std::string shapePartName(const ObjectId& object, const PartId& part) {
@@ -220,10 +237,10 @@ Articulation articulationOf(const ArticulatedModel& shape, const ObjectId& objec
                              type,
                              {idOf(joint.parent)},
                              {idOf(joint.child)},
-                             Pose::fromIsometry(joint.T_parent_joint),
+                             tidiedPose(joint.T_parent_joint),
                              joint.axis_joint,
-                             joint.lower,
-                             joint.upper,
+                             joint.type == model::MotionType::kPrismatic ? tidied(joint.lower) : joint.lower,
+                             joint.type == model::MotionType::kPrismatic ? tidied(joint.upper) : joint.upper,
                              0.0,
                              {}});
     }
@@ -231,11 +248,11 @@ Articulation articulationOf(const ArticulatedModel& shape, const ObjectId& objec
   for (const model::ModelHandle& handle : shape.handles) {
     const HandleKind kind = handle.length_m ? HandleKind::kBar : HandleKind::kKnob;
     made.handles.push_back(
-        {object.value + "-" + handle.name, {idOf(handle.part)}, kind, Pose::fromIsometry(handle.T_part_handle), handle.length_m, {}});
+        {object.value + "-" + handle.name, {idOf(handle.part)}, kind, tidiedPose(handle.T_part_handle), handle.length_m, {}});
   }
   for (const model::ModelKnob& knob : shape.knobs) {
     const auto joint = jointTo(knob.part);
-    Knob known{{idOf(knob.part)}, {}, {idOf(joint->parent)}, Pose::fromIsometry(joint->T_parent_joint), joint->axis_joint, {}, {}, {}};
+    Knob known{{idOf(knob.part)}, {}, {idOf(joint->parent)}, tidiedPose(joint->T_parent_joint), joint->axis_joint, {}, {}, {}};
     for (const model::ModelKnobState& state : knob.states) {
       known.states.push_back({state.name, state.angle_rad});
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/model/articulated_model.h"
+#include "core/model/shapes/shape_text.h"
 #include "semantic/model/home.h"
 
 namespace oikos::semantic {
@@ -41,6 +42,9 @@ class ModelMaker {
 
 /// The model that a shape describes. Throws Error{kInput} that names `where`, the dimension and what would be right.
 [[nodiscard]] model::ArticulatedModel makeShape(const Shape& shape, const std::string& where);
+
+/// Its dimensions as core/model takes them.
+[[nodiscard]] model::Dimensions dimensionsOf(const Shape& shape);
 
 /// The name of the shape's part that stands for a part of the object: `fridge-door` of the object `fridge` is its "door".
 [[nodiscard]] std::string shapePartName(const ObjectId& object, const PartId& part);

@@ -61,6 +61,7 @@ XmlNode boxNode(const Box& box) {
 
 XmlNode shapeNode(const Shape& shape) {
   XmlNode node = leaf("shape", {{"kind", shape.kind}});
+  node.whole = true;  // the dimensions keep their order
   for (const Property& dimension : shape.dimensions) {
     node.attributes.emplace_back(dimension.name, dimension.value);
   }

@@ -34,6 +34,15 @@ std::string toXml(const Home& home) {
   return out + "\n";
 }
 
+std::string toXml(const LargeObject& object) {
+  XmlNode node;
+  node.name = object.articulation ? "largeArticulatedObject" : "largeObject";
+  node.source = &object;
+  std::string out;
+  appendElement(out, node, "");
+  return out;
+}
+
 std::string spliceVerified(std::string_view bytes, const Home& before, const Home& after, const std::string& where) {
   std::string text = spliceXml(bytes, before, after);
   verify(text, after, where);

@@ -12,6 +12,9 @@ namespace oikos::semantic {
 /// a file) within 1e-15 rad.
 [[nodiscard]] std::string toXml(const Home& home);
 
+/// The element of one piece, with what it carries, as it would stand in a room.
+[[nodiscard]] std::string toXml(const LargeObject& object);
+
 /// `bytes`, which readHome reads as `before`, changed so that it reads `after`: only what differs is replaced. Comments, order, quotes and
 /// line breaks of everything else stay; an object that moves takes its own along. `bytes` must be UTF-8 and valid.
 [[nodiscard]] std::string spliceXml(std::string_view bytes, const Home& before, const Home& after);

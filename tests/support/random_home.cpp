@@ -68,7 +68,10 @@ class Maker {
     object.T_parent_object = pose();
     object.model = coin() ? "models/cup.obj" : "";
     if (coin()) {
-      object.shape = Shape{"cup", some(2, [&] { return Property{"size" + std::to_string(next_id_++) + "_m", coin() ? "0.1" : text()}; })};
+      object.shape = Shape{"cup", {{"height_m", coin() ? "0.1" : "0.11"}}};
+      if (coin()) {
+        object.shape->edit().dimensions.push_back({"outside_rgb", coin() ? "#aabbcc" : "#FF0000"});
+      }
     }
     if (coin()) {
       object.box_model = box();
@@ -160,7 +163,7 @@ class Maker {
     object.graspable = coin();
     object.model = coin() ? "models/a b.glb" : "";
     if (coin()) {
-      object.shape = Shape{"cabinet", {{"width_m", "0.8"}, {"label", text()}}};
+      object.shape = Shape{"cabinet", {{coin() ? "width_m" : "depth_m", coin() ? "0.80" : "0.7"}, {"hinge", "right"}}};
     }
     object.boxes_object = some(2, [&] { return box(); });
     object.affordances = some(2, [&] { return std::string(coin() ? "sittable" : "own_affordance"); });

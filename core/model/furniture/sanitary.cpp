@@ -118,7 +118,7 @@ std::vector<std::string> SinkUnitShape::validate() const {
   rules.length("worktop_thickness_m", worktop_thickness_m).between("worktop_overhang_m", worktop_overhang_m, 0.0, 1.0);
   rules.length("basin_width_m", basin_width_m).length("basin_depth_m", basin_depth_m).length("basin_height_m", basin_height_m);
   rules.between("plinth_height_m", plinth_height_m, 0.0, 10.0).between("tap_height_m", tap_height_m, 0.0, 2.0);
-  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).between("door_opening_rad", door_opening_rad, 0.1, 3.2);
+  rules.between("door_gap_m", door_gap_m, 0.0, 0.1).angle("door_opening_deg", door_opening_rad, 5.0, 183.0);
   rules.length("handle_length_m", handle_length_m).between("handle_offset_m", handle_offset_m, 0.0, 100.0);
   rules.between("handle_level", handle_level, 0.0, 1.0);
   rules.color("body_rgb", body_rgb).color("front_rgb", front_rgb).color("handle_rgb", handle_rgb).color("plinth_rgb", plinth_rgb);
@@ -161,7 +161,7 @@ ArticulatedModel makeSinkUnit(const SinkUnitShape& shape) {
 std::vector<std::string> ToiletShape::validate() const {
   ShapeRules rules("furniture");
   rules.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("seat_height_m", seat_height_m);
-  rules.length("cistern_depth_m", cistern_depth_m).length("lid_m", lid_m).between("lid_opening_rad", lid_opening_rad, 0.1, 1.58);
+  rules.length("cistern_depth_m", cistern_depth_m).length("lid_m", lid_m).angle("lid_opening_deg", lid_opening_rad, 5.0, 90.0);
   rules.require(!(seat_height_m >= height_m), "seat_height_m", seat_height_m, "must be less than height_m");
   rules.require(!(cistern_depth_m + 4.0 * lid_m >= depth_m), "cistern_depth_m", cistern_depth_m, "must leave room for the seat");
   rules.require(!(4.0 * lid_m >= seat_height_m), "lid_m", lid_m, "must be less than a quarter of seat_height_m");

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/base/degrees.h"
 #include "core/model/articulated_model.h"
 #include "core/model/furniture/options.h"
 
@@ -26,7 +26,7 @@ struct SinkUnitShape {
   double basin_height_m = 0.18;
   double tap_height_m = 0.26;
   double door_gap_m = 0.003;
-  double door_opening_rad = 1.9;
+  double door_opening_rad = 110.0 * base::kRadPerDeg;
   HandleStyle handle = HandleStyle::kBarVertical;
   double handle_length_m = 0.16;
   double handle_offset_m = 0.04;
@@ -39,6 +39,17 @@ struct SinkUnitShape {
   std::uint32_t basin_rgb = 0xB9BEC2;
   std::uint32_t tap_rgb = 0x9AA0A5;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("board_m", board_m);
+    visitor.length("plinth_height_m", plinth_height_m).length("worktop_thickness_m", worktop_thickness_m);
+    visitor.length("worktop_overhang_m", worktop_overhang_m).length("basin_width_m", basin_width_m).length("basin_depth_m", basin_depth_m);
+    visitor.length("basin_height_m", basin_height_m).length("tap_height_m", tap_height_m).length("door_gap_m", door_gap_m);
+    visitor.angle("door_opening_deg", door_opening_rad).choice("handle", handle).length("handle_length_m", handle_length_m);
+    visitor.length("handle_offset_m", handle_offset_m).ratio("handle_level", handle_level).color("body_rgb", body_rgb);
+    visitor.color("front_rgb", front_rgb).color("handle_rgb", handle_rgb).color("plinth_rgb", plinth_rgb);
+    visitor.color("worktop_rgb", worktop_rgb).color("basin_rgb", basin_rgb).color("tap_rgb", tap_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeSinkUnit(const SinkUnitShape& shape);
@@ -51,10 +62,16 @@ struct ToiletShape {
   double seat_height_m = 0.43;  ///< to the top of the closed lid
   double cistern_depth_m = 0.17;
   double lid_m = 0.025;
-  double lid_opening_rad = std::numbers::pi / 2.0;
+  double lid_opening_rad = 90.0 * base::kRadPerDeg;
   std::uint32_t body_rgb = 0xF2F2F0;
   std::uint32_t lid_rgb = 0xFAFAF8;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("seat_height_m", seat_height_m);
+    visitor.length("cistern_depth_m", cistern_depth_m).length("lid_m", lid_m).angle("lid_opening_deg", lid_opening_rad);
+    visitor.color("body_rgb", body_rgb).color("lid_rgb", lid_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeToilet(const ToiletShape& shape);
@@ -70,6 +87,11 @@ struct BathtubShape {
   std::uint32_t body_rgb = 0xF2F2F0;
   std::uint32_t tap_rgb = 0x9AA0A5;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("rim_m", rim_m);
+    visitor.length("bottom_m", bottom_m).length("tap_height_m", tap_height_m).color("body_rgb", body_rgb).color("tap_rgb", tap_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeBathtub(const BathtubShape& shape);
@@ -86,6 +108,12 @@ struct WashbasinShape {
   std::uint32_t body_rgb = 0xF2F2F0;
   std::uint32_t tap_rgb = 0x9AA0A5;
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor.length("width_m", width_m).length("depth_m", depth_m).length("height_m", height_m).length("basin_height_m", basin_height_m);
+    visitor.length("rim_m", rim_m).length("shelf_m", shelf_m).length("pedestal_width_m", pedestal_width_m);
+    visitor.length("tap_height_m", tap_height_m).color("body_rgb", body_rgb).color("tap_rgb", tap_rgb);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 [[nodiscard]] ArticulatedModel makeWashbasin(const WashbasinShape& shape);

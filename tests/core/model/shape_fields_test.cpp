@@ -5,10 +5,7 @@
 
 #include <numbers>
 
-#include "core/model/furniture/appliances.h"
-#include "core/model/furniture/cabinet.h"
-#include "core/model/furniture/living.h"
-#include "core/model/furniture/room_door.h"
+#include "core/model/furniture/furniture.h"
 #include "core/model/small_objects.h"
 
 namespace oikos::model {
@@ -31,9 +28,10 @@ constexpr std::size_t fieldCount() {
 
 template <class Shape>
 class EveryShape : public testing::Test {};
-using AllShapes = testing::Types<CabinetShape, DrawerUnitShape, FridgeShape, OvenShape, DishwasherShape, RoomDoorShape, TableShape,
-                                 ChairShape, SofaShape, BedShape, ShelfShape, CounterShape, LampShape, TvShape, RugShape, CupShape,
-                                 BowlShape, PlateShape, BottleShape, TinShape, JarShape, BoxShape, CartonShape, BookShape>;
+using AllShapes =
+    testing::Types<CabinetShape, DrawerUnitShape, FridgeShape, OvenShape, DishwasherShape, RoomDoorShape, TableShape, ChairShape, SofaShape,
+                   BedShape, ShelfShape, CounterShape, LampShape, TvShape, RugShape, SinkUnitShape, ToiletShape, BathtubShape,
+                   WashbasinShape, CupShape, BowlShape, PlateShape, BottleShape, TinShape, JarShape, BoxShape, CartonShape, BookShape>;
 TYPED_TEST_SUITE(EveryShape, AllShapes);
 
 TYPED_TEST(EveryShape, NamesAllOfItsFields) {

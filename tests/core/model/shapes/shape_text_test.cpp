@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/model/shape_text.h"
+#include "core/model/shapes/shape_text.h"
 
 #include <gtest/gtest.h>
 

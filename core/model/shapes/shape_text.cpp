@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/model/shape_text.h"
+#include "core/model/shapes/shape_text.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/nearest_name.h"
-#include "core/model/furniture/appliances.h"
-#include "core/model/furniture/cabinet.h"
-#include "core/model/furniture/living.h"
-#include "core/model/furniture/room_door.h"
+#include "core/model/furniture/furniture.h"
 #include "core/model/shape_fields.h"
 #include "core/model/small_objects.h"
 
@@ -121,6 +118,10 @@ constexpr auto kKinds = std::to_array<ShapeKind>({
     kindOf<LampShape, makeLamp>("lamp"),
     kindOf<TvShape, makeTv>("tv"),
     kindOf<RugShape, makeRug>("rug"),
+    kindOf<SinkUnitShape, makeSinkUnit>("sink_unit"),
+    kindOf<ToiletShape, makeToilet>("toilet"),
+    kindOf<BathtubShape, makeBathtub>("bathtub"),
+    kindOf<WashbasinShape, makeWashbasin>("washbasin"),
     kindOf<CupShape, makeCup>("cup"),
     kindOf<BowlShape, makeBowl>("bowl"),
     kindOf<PlateShape, makePlate>("plate"),
