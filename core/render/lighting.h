@@ -10,6 +10,7 @@ namespace oikos::render {
 struct PointLight {
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
   Eigen::Vector3f intensity_rgb = Eigen::Vector3f::Ones();  ///< linear; a white wall 1 m before it, facing it, gets this brightness
+  float reach_m = 1e6F;                                     ///< where its light has faded out: what is farther away costs nothing
 };
 
 /// Light of a home: a glow from all sides, stronger from above, and lamps. Brightness 1 is white in the picture.

@@ -91,7 +91,11 @@ void Shader::addLamp(const PointLight& lamp, const SurfacePacket& surfaces, Colo
     shadows.direction_map[i] = lamp_map - shadows.origin_map[i];
     shadows.near[i] = 0.0F;
     shadows.far[i] = 0.98F;  // the lamp's own shade does not count
-    shadows.valid[i] = surfaces[i].hit.part >= 0 && shadows.direction_map[i].dot(surfaces[i].normal_map) > 0.0F;
+    shadows.valid[i] = surfaces[i].hit.part >= 0 && shadows.direction_map[i].dot(surfaces[i].normal_map) > 0.0F &&
+                       shadows.direction_map[i].squaredNorm() < lamp.reach_m * lamp.reach_m;
+  }
+  if (std::find(shadows.valid.begin(), shadows.valid.end(), true) == shadows.valid.end()) {
+    return;
   }
   const std::array<bool, kPacketSize> in_shadow =
       config_.lighting.has_shadows ? embree_.occluded(shadows) : std::array<bool, kPacketSize>{};
@@ -101,10 +105,12 @@ void Shader::addLamp(const PointLight& lamp, const SurfacePacket& surfaces, Colo
     }
     const float distance_sq = std::max(0.01F, shadows.direction_map[i].squaredNorm());
     const Eigen::Vector3f to_lamp = shadows.direction_map[i] / std::sqrt(distance_sq);
-    light_rgb[i] += lamp.intensity_rgb * (to_lamp.dot(surfaces[i].normal_map) / distance_sq);
+    const float fading = 1.0F - distance_sq / (lamp.reach_m * lamp.reach_m);
+    const Eigen::Vector3f brightness_rgb = lamp.intensity_rgb * (fading * fading / distance_sq);
+    light_rgb[i] += brightness_rgb * to_lamp.dot(surfaces[i].normal_map);
     if (gloss(surfaces[i]) > 0.0F) {
       const float mirrored = std::max(0.0F, (to_lamp + surfaces[i].to_camera_map).normalized().dot(surfaces[i].normal_map));
-      shine_rgb[i] += lamp.intensity_rgb * (std::pow(mirrored, kShinePower) / distance_sq);
+      shine_rgb[i] += brightness_rgb * std::pow(mirrored, kShinePower);
     }
   }
 }

@@ -157,7 +157,10 @@ class Checker {
     for (const std::string& affordance : object.affordances) {
       checkWord(TermKind::kAffordance, affordance, element, line);
     }
-    if (!room.outline_map.empty() && !isInside(object.T_map_object.position_m.head<2>(), room.outline_map)) {
+    constexpr double kWithinWall_m = 0.15;  // as a door's frame is
+    const Eigen::Vector2d place_map = object.T_map_object.position_m.head<2>();
+    if (!room.outline_map.empty() && !isInside(place_map, room.outline_map) &&
+        distanceToEdge(place_map, room.outline_map) > kWithinWall_m) {
       warn(line, element,
            "at x " + base::toFixedText(object.T_map_object.position_m.x(), 2) + ", y " +
                base::toFixedText(object.T_map_object.position_m.y(), 2) + " m, outside its room",

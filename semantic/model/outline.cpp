@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semantic/model/outline.h"
 
+#include <algorithm>
+#include <limits>
+
 #include <cstddef>
 
 namespace oikos::semantic {
@@ -15,6 +18,17 @@ bool isInside(const Eigen::Vector2d& point, const std::vector<Eigen::Vector2d>& 
     }
   }
   return inside;
+}
+
+double distanceToEdge(const Eigen::Vector2d& point, const std::vector<Eigen::Vector2d>& outline) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Eigen::Vector2d side = outline[(i + 1) % outline.size()] - outline[i];
+    const double length_sq = side.squaredNorm();
+    const double along = length_sq > 0.0 ? std::clamp((point - outline[i]).dot(side) / length_sq, 0.0, 1.0) : 0.0;
+    nearest = std::min(nearest, (outline[i] + along * side - point).norm());
+  }
+  return nearest;
 }
 
 }  // namespace oikos::semantic

@@ -84,7 +84,7 @@ TableScore score(const std::vector<TableRow>& table, const std::filesystem::path
   for (const TableRow& row : table) {
     auto& home = homes[row.home];
     if (!home) {
-      home = std::make_unique<QuestionedHome>(source_folder, row.home, row.home == "demo" ? events : "");
+      home = std::make_unique<QuestionedHome>(source_folder, row.home, row.home == "household" ? events : "");
     }
     const semantic::Answer answer = home->ask(row.question, base::parseRfc3339Ns(row.now).value());
     const std::string miss = missesOf(answer, row.expect);

@@ -309,7 +309,7 @@ Room makeLivingRoom() {
 
 Room makeBedroom() {
   RoomMaker bedroom("bedroom", "bedroom", rectangle({6.12, -2.6}, {10.0, 1.4}));
-  bedroom.put({"bed", "bed", "", "bed width_m=1.4", Movability::kFixed, {"lying"}}, {8.94, -0.8, 180.0});
+  bedroom.put({"bed", "bed", "", "bed width_m=1.4", Movability::kFixed}, {8.94, -0.8, 180.0});
   bedroom
       .put({"wardrobe", "wardrobe", "",
             "cabinet width_m=1.2 depth_m=0.6 height_m=2.05 door_count=2 shelf_count=3 front_rgb=#B99466 handle_level=0.5"},
@@ -377,6 +377,13 @@ Home makeDemoHome() {
   home.name = "The demo apartment";
   home.version = 1;
   home.time_zone = "Europe/Berlin";
+  Vocabulary vocabulary = builtInVocabulary();
+  for (const Term& term : {Term{"picture", {"painting"}, {}}, Term{"tv", {"television"}, {}}, Term{"rug", {"carpet"}, {}},
+                           Term{"lamp", {}, {}}, Term{"nightstand", {"bedside table"}, {}}, Term{"wardrobe", {}, {}},
+                           Term{"carton", {}, {}}, Term{"tin", {"can"}, {}}, Term{"plate", {}, {}}, Term{"cabinet", {}, {}}}) {
+    vocabulary.add(TermKind::kObjectType, term);
+  }
+  home.vocabulary = std::move(vocabulary);
   home.rooms = {makeHall(), makeKitchen(), makeLivingRoom(), makeBedroom(), makeBathroom()};
   return home;
 }

@@ -66,7 +66,7 @@ render::Lighting lightingOf(const LightSettings& settings, const semantic::Home&
   lighting.lamps = settings.lamps.empty() ? ceilingLamps(home, kWallHeight_m) : std::vector<render::PointLight>{};
   for (const std::string& lamp : settings.lamps) {
     const std::vector<double> n = numbersOf(lamp);
-    lighting.lamps.push_back({{n[0], n[1], n[2]}, Eigen::Vector3f(1.0F, 0.96F, 0.9F) * static_cast<float>(n[3])});
+    lighting.lamps.push_back({{n[0], n[1], n[2]}, Eigen::Vector3f(1.0F, 0.96F, 0.9F) * static_cast<float>(n[3]), 1e6F});
   }
   return lighting;
 }

@@ -148,6 +148,7 @@ void World::update(const Home& home) {
 }
 
 std::vector<render::PointLight> ceilingLamps(const Home& home, double wall_height_m) {
+  constexpr float kReach_m = 7.0F;
   std::vector<render::PointLight> lamps;
   for (const Room& room : home.rooms) {
     if (room.outline_map.size() < 3) {
@@ -158,7 +159,7 @@ std::vector<render::PointLight> ceilingLamps(const Home& home, double wall_heigh
       middle += corner / static_cast<double>(room.outline_map.size());
     }
     const double brightness = std::sqrt(areaOf(room.outline_map)) * 0.45;
-    lamps.push_back({{middle.x(), middle.y(), wall_height_m - 0.25}, Eigen::Vector3f(1.0F, 0.96F, 0.9F) * static_cast<float>(brightness)});
+    lamps.push_back({{middle.x(), middle.y(), wall_height_m - 0.25}, Eigen::Vector3f(1.0F, 0.96F, 0.9F) * static_cast<float>(brightness), kReach_m});
   }
   return lamps;
 }

@@ -21,7 +21,7 @@ namespace {
 const std::filesystem::path kSource(OIKOS_SOURCE_DIR);
 
 Home demoHome() {
-  return readHome(kSource / "homes/demo/home.xml").home;
+  return readHome(kSource / "homes/household/home.xml").home;
 }
 
 std::vector<Event> demoEvents() {
@@ -175,7 +175,7 @@ TEST(HomeState, ATakenBackSightingIsForgottenByTheHome) {
 
 TEST(LoadHome, TakesTheFileAndWhatCameAfterIt) {
   const test::TemporaryFolder folder;
-  (void)folder.write("home.xml", base::readFile(kSource / "homes/demo/home.xml"));
+  (void)folder.write("home.xml", base::readFile(kSource / "homes/household/home.xml"));
   EXPECT_EQ(loadHome(folder.path()).as_of, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "history.sqlite"));
   (void)History(folder.path() / "history.sqlite", HistoryAccess::kAppend).append(demoEvents());

@@ -16,7 +16,7 @@ Home papersHouse() {
 }
 
 Home demoHome() {
-  return readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/demo/home.xml").home;
+  return readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/household/home.xml").home;
 }
 
 Eigen::Isometry3d inMap(const LargeObject& object, const SmallObject& small) {
