@@ -56,6 +56,7 @@ void setAction(CLI::App& command, Action action);
 // One file each: tools/NAME.cpp.
 void addAskCommand(CLI::App& root);
 void addCheckCommand(CLI::App& root);
+void addDemoCommand(CLI::App& root);
 void addEvaluateCommand(CLI::App& root);
 void addForgetCommand(CLI::App& root);
 void addInspectCommand(CLI::App& root);

@@ -4,6 +4,7 @@
 
 int main(int argc, char** argv) {
   oikos::tools::Program program;
+  oikos::tools::addDemoCommand(program.root());
   oikos::tools::addMapCommand(program.root());
   oikos::tools::addInspectCommand(program.root());
   oikos::tools::addAskCommand(program.root());

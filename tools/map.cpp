@@ -17,8 +17,7 @@
 #include "core/recording/recording.h"
 #include "mapping/robot_mount.h"
 #include "tools/command.h"
-#include "tools/home_stage.h"
-#include "tools/terminal_progress.h"
+#include "tools/map_home.h"
 
 namespace oikos::tools {
 
@@ -130,14 +129,7 @@ Summary buildHome(const MapOptions& options, const Session& session) {
   const auto begin = std::chrono::steady_clock::now();
   const mapping::MapConfig config = configOf(options, session.options);
   const auto recording = recording::openRecording(options.recording, {.camera = options.camera});
-  TerminalProgress progress(session.options);
-  const mapping::MapRun run{.threads = session.options.threads,
-                            .seed = session.options.seed,
-                            .T_base_camera = mountOf(options, *recording),
-                            .progress = progress.sink()};
-  HomeStage stage(options.home, session.interrupts);
-  const mapping::MapResult result = mapping::buildMap(*recording, config, run, stage.mapFolder());
-  stage.commit();
+  const mapping::MapResult result = mapIntoHome({*recording, options.home, config, mountOf(options, *recording)}, session);
   return {options.home, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
 }
 

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/App.hpp>
+#include <CLI/Option.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/base/posix_file.h"
+#include "core/base/read_file.h"
+#include "core/base/rfc3339.h"
+#include "core/geometry/ply.h"
+#include "core/metrics/trajectory_error.h"
+#include "core/recording/png_encoder.h"
+#include "core/recording/recording.h"
+#include "core/recording/trajectory.h"
+#include "semantic/query/answer.h"
+#include "semantic/xml/home_reader.h"
+#include "tools/command.h"
+#include "tools/demo/demo_page.h"
+#include "tools/demo/floor_picture.h"
+#include "tools/interrupts.h"
+#include "tools/map_home.h"
+#include "tools/simulate/simulator.h"
+#include "tools/terminal_progress.h"
+
+namespace oikos::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExamples =
+    "  oikos demo --out demo\n"
+    "  oikos demo --home homes/demo --scene drive --out demo --seed 7";
+
+constexpr std::array kQuestions = {"Where is the blue cup?",        "How many cups are there?",
+                                   "What is on the kitchen table?", "Is the fridge open?",
+                                   "Which doors are open?",         "Where do I stand to reach the oven?",
+                                   "What is in the tall cupboard?", "What is nearest to the sofa?",
+                                   "How do I open the wardrobe?",   "Bring me the milk."};
+
+struct DemoOptions {
+  fs::path home = "homes/demo";
+  std::string scene = "drive";
+  fs::path out = "oikos-demo";
+};
+
+/// Home and scenes, to be mapped into and asked: the original stays as it is.
+void copyHome(const fs::path& from, const fs::path& to) {
+  if (!fs::exists(from / "home.xml")) {
+    throw base::Error(base::ErrorCode::kUsage, "is no home: it has no home.xml; give the demo's with --home", from.string());
+  }
+  fs::create_directories(to);
+  for (const char* name : {"home.xml", "scenes", "models"}) {
+    if (fs::exists(from / name)) {
+      fs::copy(from / name, to / name, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    }
+  }
+}
+
+void simulateDrive(const fs::path& script, const fs::path& drive, const Session& session) {
+  fs::remove_all(drive);
+  fs::create_directories(drive);
+  TerminalProgress progress(session.options);
+  (void)simulate::simulate({script, drive, static_cast<std::uint64_t>(session.options.seed), session.options.threads, progress.sink()});
+}
+
+std::vector<std::pair<std::string, std::string>> ask(const semantic::Home& home, std::int64_t now_ns) {
+  const semantic::HomeIndex index(home);
+  std::vector<std::pair<std::string, std::string>> answers;
+  for (const char* question : kQuestions) {
+    answers.emplace_back(question, semantic::answerQuestion({&index, nullptr, now_ns, semantic::RobotPlace{}}, question).sentence);
+  }
+  return answers;
+}
+
+std::vector<std::pair<std::string, std::string>> figures(const fs::path& home, const fs::path& drive, const mapping::MapResult& map) {
+  const auto estimate = recording::readTrajectory(home / "map" / "trajectory.txt");
+  const auto truth = recording::readTrajectory(drive / "groundtruth.txt");
+  const metrics::TrajectoryError error = metrics::evaluateTrajectory(estimate, truth, {});
+  double in_place_m = 0.0;
+  for (const recording::StampedPose& pose : estimate) {
+    const auto same = std::find_if(truth.begin(), truth.end(), [&](const auto& other) { return other.stamp_ns == pose.stamp_ns; });
+    if (same != truth.end()) {
+      in_place_m = std::max(in_place_m, (same->T_map_camera.translation() - pose.T_map_camera.translation()).norm());
+    }
+  }
+  return {{"frames", std::to_string(map.frames) + ", " + std::to_string(map.lost_frames) + " lost"},
+          {"way driven", base::toFixedText(error.truth_path_m, 1) + " m in " + base::toFixedText(error.duration_s, 0) + " s"},
+          {"error of the camera's path (ATE RMSE)", base::toFixedText(100.0 * error.absolute_m.rmse, 2) + " cm"},
+          {"largest error in the home's own frame", base::toFixedText(100.0 * in_place_m, 1) + " cm"},
+          {"keyframes, loops", std::to_string(map.keyframes) + ", " + std::to_string(map.loops)}};
+}
+
+std::vector<std::string> someFrames(const fs::path& drive) {
+  constexpr std::size_t kFrames = 12;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(drive / "rgb")) {
+    files.push_back(entry.path());
+  }
+  // By time: names are seconds with a fixed number of decimals.
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return std::pair(a.string().size(), a.string()) < std::pair(b.string().size(), b.string());
+  });
+  std::vector<std::string> frames;
+  for (std::size_t i = 0; i < std::min(kFrames, files.size()); ++i) {
+    frames.push_back(base::readFile(files[i * files.size() / std::min(kFrames, files.size())]));
+  }
+  return frames;
+}
+
+std::int64_t timeOf(const recording::Recording& recording) {
+  return recording.startNs().value_or(0);
+}
+
+ExitCode runDemo(const DemoOptions& options, const Session& session) {
+  const fs::path home = options.out / "home";
+  const fs::path drive = options.out / "drive";
+  copyHome(options.home, home);
+  simulateDrive(home / "scenes" / (options.scene + ".toml"), drive, session);
+  const auto recording = recording::openRecording(drive, {});
+  const mapping::MapResult map = mapIntoHome({*recording, home, mapping::MapConfig{}, recording->T_base_camera()}, session);
+  demo::DemoPage page;
+  const semantic::Home known = semantic::getHome(semantic::readHome(home / "home.xml"), home / "home.xml");
+  page.questions = ask(known, timeOf(*recording));
+  page.facts = figures(home, drive, map);
+  page.frames_jpg = someFrames(drive);
+  const auto floor = recording::encodePngAtLevel(demo::drawFloor({geometry::readPly(home / "map" / "cloud.ply"), known,
+                                                                  recording::readTrajectory(home / "map" / "base_trajectory.txt")}),
+                                                 6);
+  page.floor_png.assign(floor.begin(), floor.end());
+  base::writeFileAtomically(options.out / "floor.png", page.floor_png);
+  base::writeFileAtomically(options.out / "report.html", demo::toHtml(page));
+  for (const auto& [name, value] : page.facts) {
+    std::cout << name << ": " << value << '\n';
+  }
+  for (const auto& [question, answer] : page.questions) {
+    std::cout << "\n> " << question << '\n' << answer << '\n';
+  }
+  std::cout << "\nreport: " << (options.out / "report.html").string() << '\n';
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void addDemoCommand(CLI::App& root) {
+  CLI::App& command =
+      addCommand(root, {"demo", "Simulates a drive through a home, maps it, asks about it, and makes a page to look at.", kExamples});
+  const auto options = std::make_shared<DemoOptions>();
+  command.add_option("--home", options->home, "the home, with its scenes; default: homes/demo");
+  command.add_option("--scene", options->scene, "which of its scenes; default: drive");
+  command.add_option("--out", options->out, "folder of what is made; default: oikos-demo");
+  setAction(command, [options](const Session& session) { return runDemo(*options, session); });
+}
+
+}  // namespace oikos::tools

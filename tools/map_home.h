@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "mapping/mapper.h"
+#include "tools/command.h"
+
+namespace oikos::tools {
+
+struct MapJob {
+  const recording::Recording& recording;
+  std::filesystem::path home;
+  mapping::MapConfig config;
+  std::optional<Eigen::Isometry3d> T_base_camera;  ///< the mount
+};
+
+/// Maps a drive into a home, which is made if there is none: the old map or the new one is there at any time. Rooms with outlines get their
+/// clouds. Throws Error.
+mapping::MapResult mapIntoHome(const MapJob& job, const Session& session);
+
+}  // namespace oikos::tools
