@@ -128,7 +128,7 @@ void dress(model::ArticulatedModel& piece, const std::string& type, std::uint64_
 }
 
 void dressShell(model::TriangleMesh& shell, const std::string& room_type, std::uint64_t seed) {
-  constexpr float kRepeat_m = 4.0F;
+  constexpr auto kRepeat_m = static_cast<float>(kShellTexture_m);
   for (Eigen::Vector2f& coordinate : shell.texture_coordinates) {
     coordinate /= kRepeat_m;
   }
@@ -136,11 +136,11 @@ void dressShell(model::TriangleMesh& shell, const std::string& room_type, std::u
   model::Material& floor = shell.materials[kFloorMaterial];
   floor.color_rgb = has_tiles ? Eigen::Vector3f(0.72F, 0.70F, 0.66F) : Eigen::Vector3f(0.70F, 0.52F, 0.36F);
   floor.gloss = 0.15F;
-  setTexture(floor, has_tiles ? TextureKind::kTiles : TextureKind::kPlanks, camera::mixBits(seed + 1), 1024);
+  setTexture(floor, has_tiles ? TextureKind::kTiles : TextureKind::kPlanks, camera::mixBits(seed + 1), 2048);
   model::Material& walls = shell.materials[kWallMaterial];
   walls.color_rgb = wallColor(seed);
   const bool is_papered = !has_tiles;
-  setTexture(walls, is_papered ? TextureKind::kWallpaper : TextureKind::kPlaster, camera::mixBits(seed + 3), 1024);
+  setTexture(walls, is_papered ? TextureKind::kWallpaper : TextureKind::kPlaster, camera::mixBits(seed + 3), 2048);
   model::Material& ceiling = shell.materials[kCeilingMaterial];
   ceiling.color_rgb.setConstant(0.93F);
   setTexture(ceiling, TextureKind::kPlaster, camera::mixBits(seed + 4), 512);

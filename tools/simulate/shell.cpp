@@ -80,22 +80,24 @@ class ShellBuilder {
     }
   }
 
-  /// A rectangle that stands on the line from `a` to `b`, with the room on its left. `along_m`: of `a`, for the texture.
+  /// A rectangle that stands on the line from `a` to `b`, with the room on its left.
   struct Upright {
     Eigen::Vector2d a;
     Eigen::Vector2d b;
     double low_m;
     double high_m;
-    double along_m;
+    Eigen::Vector2d texture_m;  ///< of a's foot on the floor
   };
   void addUpright(const Upright& rectangle, ShellMaterial material) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    const double end_m = rectangle.along_m + (rectangle.b - rectangle.a).norm();
+    const double begin_m = rectangle.texture_m.x();
+    const double end_m = begin_m + (rectangle.b - rectangle.a).norm();
+    const double foot_m = rectangle.texture_m.y();
     const auto at = [](const Eigen::Vector2d& p, double z_m) { return Eigen::Vector3d(p.x(), p.y(), z_m); };
-    add(at(rectangle.b, rectangle.low_m), {-end_m, rectangle.low_m});
-    add(at(rectangle.a, rectangle.low_m), {-rectangle.along_m, rectangle.low_m});
-    add(at(rectangle.a, rectangle.high_m), {-rectangle.along_m, rectangle.high_m});
-    add(at(rectangle.b, rectangle.high_m), {-end_m, rectangle.high_m});
+    add(at(rectangle.b, rectangle.low_m), {-end_m, foot_m + rectangle.low_m});
+    add(at(rectangle.a, rectangle.low_m), {-begin_m, foot_m + rectangle.low_m});
+    add(at(rectangle.a, rectangle.high_m), {-begin_m, foot_m + rectangle.high_m});
+    add(at(rectangle.b, rectangle.high_m), {-end_m, foot_m + rectangle.high_m});
     addTriangle({first, first + 1, first + 2}, material);
     addTriangle({first, first + 2, first + 3}, material);
   }
@@ -136,20 +138,23 @@ std::vector<Gap> gapsOf(const Eigen::Vector2d& a, const Eigen::Vector2d& b, cons
   return gaps;
 }
 
-void addWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const RoomShell& shell, double along_m, ShellBuilder& builder) {
+void addWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const RoomShell& shell, const Eigen::Vector2d& texture_m,
+             ShellBuilder& builder) {
   const Eigen::Vector2d direction = (b - a).normalized();
   const Eigen::Vector2d inwards(-direction.y(), direction.x());
   const auto piece = [&](double from_m, double to_m, double low_m) {
     if (to_m - from_m < 1e-6) {
       return;
     }
-    builder.addUpright({a + from_m * direction, a + to_m * direction, low_m, shell.height_m, along_m + from_m}, kWallMaterial);
+    builder.addUpright({a + from_m * direction, a + to_m * direction, low_m, shell.height_m, texture_m + Eigen::Vector2d(from_m, 0.0)},
+                       kWallMaterial);
     if (low_m > 0.0) {
       return;
     }
     const Eigen::Vector2d step = kSkirtingDepth_m * inwards;
-    builder.addUpright({a + from_m * direction + step, a + to_m * direction + step, 0.0, shell.skirting_m, along_m + from_m},
-                       kSkirtingMaterial);
+    builder.addUpright(
+        {a + from_m * direction + step, a + to_m * direction + step, 0.0, shell.skirting_m, texture_m + Eigen::Vector2d(from_m, 0.0)},
+        kSkirtingMaterial);
   };
   double done_m = 0.0;
   for (const Gap& gap : gapsOf(a, b, shell)) {
@@ -177,11 +182,15 @@ model::TriangleMesh makeShell(const RoomShell& shell) {
   const std::vector<Eigen::Vector2d> outline = oriented(shell.outline_map);
   builder.addFlat(outline, 0.0, kFloorMaterial);
   builder.addFlat(outline, shell.height_m, kCeilingMaterial);
-  double along_m = 0.0;
+  Eigen::Vector2d texture_m = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Eigen::Vector2d& next = outline[(i + 1) % outline.size()];
-    addWall(outline[i], next, shell, along_m, builder);
-    along_m += (next - outline[i]).norm();
+    const double length_m = (next - outline[i]).norm();
+    if (texture_m.x() + length_m > kShellTexture_m) {
+      texture_m = {0.0, texture_m.y() + shell.height_m};  // the next row
+    }
+    addWall(outline[i], next, shell, texture_m, builder);
+    texture_m.x() += length_m;
   }
   return std::move(builder.mesh);
 }

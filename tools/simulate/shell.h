@@ -25,10 +25,14 @@ struct RoomShell {
 /// Materials of a shell's mesh.
 enum ShellMaterial : std::uint32_t { kFloorMaterial, kCeilingMaterial, kWallMaterial, kSkirtingMaterial, kShellMaterialCount };
 
+/// After so many metres a shell's texture repeats itself. Nothing within a room does: its walls lie side by side in the texture, one row
+/// above the other, or one wall could be taken for another.
+constexpr double kShellTexture_m = 8.0;
+
 /// The floor within a doorway, between the floors of two rooms.
 [[nodiscard]] model::TriangleMesh makeThreshold(const WallOpening& opening);
 
-/// Floor, ceiling, walls and skirting of a room as they are seen from inside; texture coordinates are metres, of walls along them and up.
+/// Floor, ceiling, walls and skirting of a room as they are seen from inside; texture coordinates are metres.
 [[nodiscard]] model::TriangleMesh makeShell(const RoomShell& shell);
 
 }  // namespace oikos::simulate

@@ -68,23 +68,23 @@ double grain(const Dice& dice, double x, double y, std::uint64_t use) {
 }
 
 cv::Mat paintPlanks(const Dice& dice, int size_px) {
-  constexpr int kRows = 8;
+  constexpr int kRows = 16;  // of eight metres
   return paintShades(size_px, [&](double x, double y) {
     const int row = static_cast<int>(y * kRows);
     const double start = dice.at(static_cast<std::uint64_t>(row), 7);
-    const double along = x * 2.0 + start;
-    const auto plank = static_cast<std::uint64_t>(wrapped(static_cast<int>(std::floor(along)), 2));
+    const double along = x * 4.0 + start;
+    const auto plank = static_cast<std::uint64_t>(wrapped(static_cast<int>(std::floor(along)), 4));
     const double in_row = y * kRows - row;
     const double in_plank = along - std::floor(along);
     const bool is_gap = in_row < 0.02 || in_plank < 0.004;
     const double tone = 0.8 + 0.5 * (dice.at(static_cast<std::uint64_t>(row), plank, 8) - 0.5);
-    const double knot = valueNoise(dice, x * 40.0, y * 64.0, {40, 64}, 11) > 0.94 ? 0.35 : 0.0;
+    const double knot = valueNoise(dice, x * 80.0, y * 128.0, {80, 128}, 11) > 0.94 ? 0.35 : 0.0;
     return is_gap ? 0.3 : tone * grain(dice, x, y, 100 + 2 * static_cast<std::uint64_t>(row)) / 0.85 - knot;
   });
 }
 
 cv::Mat paintTiles(const Dice& dice, int size_px) {
-  constexpr int kTiles = 12;
+  constexpr int kTiles = 24;
   return paintShades(size_px, [&](double x, double y) {
     const double in_x = x * kTiles - std::floor(x * kTiles);
     const double in_y = y * kTiles - std::floor(y * kTiles);
@@ -105,42 +105,41 @@ cv::Mat paintTiles(const Dice& dice, int size_px) {
   });
 }
 
-/// Leaves of one size, scattered about a lattice, each turned in its own way.
-double leaves(const Dice& dice, double x, double y, int cells, std::uint64_t use) {
-  double shade = 0.0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const int column = static_cast<int>(std::floor(x * cells)) + dx;
-      const int row = static_cast<int>(std::floor(y * cells)) + dy;
-      const auto a = static_cast<std::uint64_t>(wrapped(column, cells));
-      const auto b = static_cast<std::uint64_t>(wrapped(row, cells)) + 1000 * use;
-      const double across = x * cells - column - 0.2 - 0.6 * dice.at(a, b, 20);
-      const double down = y * cells - row - 0.2 - 0.6 * dice.at(a, b, 21);
-      const double turn = 2.0 * std::numbers::pi * dice.at(a, b, 22);
-      const double length = 0.18 + 0.25 * dice.at(a, b, 23);
-      const double p = (across * std::cos(turn) + down * std::sin(turn)) / length;
-      const double q = (-across * std::sin(turn) + down * std::cos(turn)) / (0.4 * length);
-      if (p * p + q * q < 1.0) {
-        shade = std::abs(q) < 0.12 ? 0.08 : 0.2 + 0.22 * dice.at(a, b, 24);
+/// Leaves of one size, scattered about a lattice, each turned in its own way; over the borders they go on at the other side.
+void drawLeaves(const Dice& dice, int cells, std::uint64_t use, cv::Mat& image) {
+  const double cell_px = static_cast<double>(image.cols) / cells;
+  for (int row = 0; row < cells; ++row) {
+    for (int column = 0; column < cells; ++column) {
+      const auto number = [&](std::uint64_t i) { return dice.at(static_cast<std::uint64_t>(row * cells + column), use, i); };
+      const double length_px = (0.18 + 0.25 * number(23)) * cell_px;
+      const double turn_deg = 360.0 * number(22);
+      const double shade = 255.0 * (0.55 + 0.3 * number(24));
+      for (int shift = 0; shift < 9; ++shift) {
+        const cv::Point middle(static_cast<int>((column + 0.2 + 0.6 * number(20)) * cell_px) + (shift % 3 - 1) * image.cols,
+                               static_cast<int>((row + 0.2 + 0.6 * number(21)) * cell_px) + (shift / 3 - 1) * image.rows);
+        const cv::Size axes(static_cast<int>(length_px), static_cast<int>(0.4 * length_px));
+        cv::ellipse(image, middle, axes, turn_deg, 0.0, 360.0, cv::Scalar::all(shade), -1, cv::LINE_AA);
+        cv::ellipse(image, middle, {axes.width, 1}, turn_deg, 0.0, 360.0, cv::Scalar::all(shade + 30.0), -1, cv::LINE_AA);
       }
     }
   }
-  return shade;
 }
 
 cv::Mat paintWallpaper(const Dice& dice, int size_px) {
-  return paintShades(size_px, [&](double x, double y) {
-    const double paper = 0.95 + 0.06 * (fractalNoise(dice, x, y, {32, 32}, 2) - 0.5);
-    return paper - std::max(leaves(dice, x, y, 13, 1), 0.7 * leaves(dice, x, y, 31, 2));
+  cv::Mat image = paintShades(size_px, [&](double x, double y) {
+    return 0.92 + 0.1 * (valueNoise(dice, x * 64.0, y * 64.0, {64, 64}, 2) - 0.5);
   });
+  drawLeaves(dice, 60, 2, image);
+  drawLeaves(dice, 26, 1, image);
+  return image;
 }
 
 /// Strokes of a roller, stains, and the dents and hairs of many years.
 cv::Mat paintPlaster(const Dice& dice, int size_px) {
   return paintShades(size_px, [&](double x, double y) {
-    const double rough = 0.12 * (fractalNoise(dice, x, y, {24, 24}, 1) - 0.5) + 0.12 * (fractalNoise(dice, x, y, {160, 160}, 3) - 0.5);
-    const double stain = 0.14 * (fractalNoise(dice, x, y, {3, 3}, 2) - 0.5);
-    const double dent = valueNoise(dice, x * 96.0, y * 96.0, {96, 96}, 9) > 0.93 ? 0.16 : 0.0;
+    const double rough = 0.12 * (fractalNoise(dice, x, y, {48, 48}, 1) - 0.5) + 0.12 * (fractalNoise(dice, x, y, {320, 320}, 3) - 0.5);
+    const double stain = 0.14 * (fractalNoise(dice, x, y, {6, 6}, 2) - 0.5);
+    const double dent = valueNoise(dice, x * 192.0, y * 192.0, {192, 192}, 9) > 0.93 ? 0.16 : 0.0;
     return 0.92 + rough + stain - dent;
   });
 }

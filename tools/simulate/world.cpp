@@ -87,10 +87,15 @@ World::World(const Home& home, const WorldLook& look) {
 void World::addRooms(const Home& home, const WorldLook& look) {
   semantic::ModelMaker maker(look.home_folder);
   const std::vector<WallOpening> openings = openingsOf(home, maker);
+  auto thresholds = std::make_shared<model::TriangleMesh>();
   for (const WallOpening& opening : openings) {
-    auto threshold = std::make_shared<model::TriangleMesh>(makeThreshold(opening));
-    dressShell(*threshold, "", look.seed);
-    scene_.add(threshold, Eigen::Isometry3d::Identity());
+    append(*thresholds, makeThreshold(opening), Eigen::Isometry3d::Identity());
+  }
+  for (model::Material& material : thresholds->materials) {
+    material.color_rgb = {0.35F, 0.26F, 0.18F};
+  }
+  if (!thresholds->empty()) {
+    scene_.add(thresholds, Eigen::Isometry3d::Identity());
   }
   for (const Room& room : home.rooms) {
     if (room.outline_map.size() < 3) {
@@ -159,7 +164,8 @@ std::vector<render::PointLight> ceilingLamps(const Home& home, double wall_heigh
       middle += corner / static_cast<double>(room.outline_map.size());
     }
     const double brightness = std::sqrt(areaOf(room.outline_map)) * 0.45;
-    lamps.push_back({{middle.x(), middle.y(), wall_height_m - 0.25}, Eigen::Vector3f(1.0F, 0.96F, 0.9F) * static_cast<float>(brightness), kReach_m});
+    lamps.push_back(
+        {{middle.x(), middle.y(), wall_height_m - 0.25}, Eigen::Vector3f(1.0F, 0.96F, 0.9F) * static_cast<float>(brightness), kReach_m});
   }
   return lamps;
 }
