@@ -87,6 +87,11 @@ bool isWet(const std::string& room_type) {
   return room_type == "kitchen" || room_type == "bathroom";
 }
 
+/// Paint and linoleum without a pattern: what a camera has the least to hold on to.
+bool isBare(const std::string& room_type) {
+  return room_type == "corridor";
+}
+
 /// A light colour of its own for each room.
 Eigen::Vector3f wallColor(std::uint64_t seed) {
   const auto share = [&](std::uint64_t i) { return camera::toUniform(camera::mixBits(seed + i)); };
@@ -136,15 +141,18 @@ void dressShell(model::TriangleMesh& shell, const std::string& room_type, std::u
   model::Material& floor = shell.materials[kFloorMaterial];
   floor.color_rgb = has_tiles ? Eigen::Vector3f(0.72F, 0.70F, 0.66F) : Eigen::Vector3f(0.70F, 0.52F, 0.36F);
   floor.gloss = 0.15F;
-  setTexture(floor, has_tiles ? TextureKind::kTiles : TextureKind::kPlanks, camera::mixBits(seed + 1), 2048);
   model::Material& walls = shell.materials[kWallMaterial];
   walls.color_rgb = wallColor(seed);
-  const bool is_papered = !has_tiles;
-  setTexture(walls, is_papered ? TextureKind::kWallpaper : TextureKind::kPlaster, camera::mixBits(seed + 3), 2048);
   model::Material& ceiling = shell.materials[kCeilingMaterial];
   ceiling.color_rgb.setConstant(0.93F);
-  setTexture(ceiling, TextureKind::kPlaster, camera::mixBits(seed + 4), 512);
   shell.materials[kSkirtingMaterial].color_rgb = {0.88F, 0.87F, 0.84F};
+  if (isBare(room_type)) {
+    return;
+  }
+  setTexture(floor, has_tiles ? TextureKind::kTiles : TextureKind::kPlanks, camera::mixBits(seed + 1), 2048);
+  const bool is_papered = !has_tiles;
+  setTexture(walls, is_papered ? TextureKind::kWallpaper : TextureKind::kPlaster, camera::mixBits(seed + 3), 2048);
+  setTexture(ceiling, TextureKind::kPlaster, camera::mixBits(seed + 4), 512);
 }
 
 }  // namespace oikos::simulate

@@ -12,7 +12,7 @@ namespace oikos::simulate {
 /// Materials that have a texture keep it.
 void dress(model::ArticulatedModel& piece, const std::string& type, std::uint64_t seed);
 
-/// The same for a room's shell (shell.h) by the room's type.
+/// The same for a room's shell (shell.h) by the room's type; a "corridor" is painted and has no pattern anywhere.
 void dressShell(model::TriangleMesh& shell, const std::string& room_type, std::uint64_t seed);
 
 /// A number for a name: the same on every machine.
