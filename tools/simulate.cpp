@@ -43,6 +43,7 @@ ExitCode simulateScene(const SimulateOptions& options, const Session& session) {
   const simulate::SimulationSummary summary =
       simulate::simulate({options.script, staging.path() / "recording", static_cast<std::uint64_t>(session.options.seed),
                           session.options.threads, progress.sink()});
+  base::syncTree(staging.path());
   session.interrupts.runUninterrupted([&] { base::publishNewFolder(staging.path() / "recording", target); }, "interrupted after the end");
   session.interrupts.onInterrupt("interrupted", nullptr);
   if (session.options.json) {

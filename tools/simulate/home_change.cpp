@@ -98,6 +98,14 @@ bool carries(const LargeObject& object, const std::string& id) {
   return object.id.value == id || (object.articulation && findById(object.articulation->parts, id) != nullptr);
 }
 
+/// Whether small objects can be put onto it: a room, a piece of furniture or one of its parts.
+bool hasCarrier(const Home& home, const std::string& id) {
+  return std::any_of(home.rooms.begin(), home.rooms.end(), [&](const Room& room) {
+    return room.id.value == id ||
+           std::any_of(room.objects.begin(), room.objects.end(), [&](const auto& object) { return carries(*object, id); });
+  });
+}
+
 /// Takes a small object out of the home.
 std::optional<SmallObject> takeSmall(Home& home, const std::string& id) {
   const auto takeFrom = [&](std::vector<SmallObject>& list) -> std::optional<SmallObject> {
@@ -142,6 +150,9 @@ void place(const HomeChange& change, const Moved& moved, Home& home, const std::
     object->T_map_object = moved.pose;
     return;
   }
+  if (!hasCarrier(home, moved.parent)) {
+    refuse(change, "is put onto '" + moved.parent + "', which is no piece, part or room of this home", where);
+  }
   std::optional<SmallObject> small = takeSmall(home, change.id);
   if (!small) {
     refuse(change, "is no small object of this home", where);
@@ -149,18 +160,14 @@ void place(const HomeChange& change, const Moved& moved, Home& home, const std::
   small->parent = moved.parent;
   small->relation = moved.relation;
   small->T_parent_object = moved.pose;
-  if (Room* const room = findById(home.rooms, moved.parent)) {
-    room->small_objects.push_back(std::move(*small));
-    return;
-  }
-  LargeObject* const carrier = editWhere(home, [&](const LargeObject& object) { return carries(object, moved.parent); });
-  if (carrier == nullptr) {
-    refuse(change, "is put onto '" + moved.parent + "', which is no piece, part or room of this home", where);
-  }
-  carrier->small_objects.push_back(std::move(*small));
+  Room* const room = findById(home.rooms, moved.parent);
+  std::vector<SmallObject>& list = room != nullptr
+                                       ? room->small_objects
+                                       : editWhere(home, [&](const LargeObject& o) { return carries(o, moved.parent); })->small_objects;
+  list.push_back(std::move(*small));
 }
 
-void setJoint(const HomeChange& change, const JointChange& value, Home& home, const std::string& where) {
+void setJoint(const HomeChange& change, const JointChange& value, Home& home, const std::string& where, BeyondLimits beyond) {
   LargeObject* const object =
       editWhere(home, [&](const LargeObject& o) { return o.articulation && findById(o.articulation->joints, change.id) != nullptr; });
   if (object == nullptr) {
@@ -171,7 +178,8 @@ void setJoint(const HomeChange& change, const JointChange& value, Home& home, co
     refuse(change, joint.type == JointType::kRevolute ? "turns: its value is in deg" : "slides: its value is in m", where);
   }
   constexpr double kRounding = 1e-6;
-  if (value.value < joint.lower - kRounding || value.value > joint.upper + kRounding) {
+  const bool is_beyond = value.value < joint.lower - kRounding || value.value > joint.upper + kRounding;
+  if (is_beyond && beyond == BeyondLimits::kRefuse) {
     const double unit = joint.type == JointType::kRevolute ? kRadPerDeg : 1.0;
     refuse(change,
            "= " + base::toText(value.value / unit) + ": its limits are " + base::toText(joint.lower / unit) + " and " +
@@ -218,9 +226,9 @@ std::optional<HomeChange> parseHomeChange(const std::string& text) {
   return change;
 }
 
-void apply(const HomeChange& change, Home& home, const std::string& where) {
+void apply(const HomeChange& change, Home& home, const std::string& where, BeyondLimits beyond) {
   if (const auto* const joint = std::get_if<JointChange>(&change.what)) {
-    setJoint(change, *joint, home, where);
+    setJoint(change, *joint, home, where, beyond);
   } else if (const auto* const knob = std::get_if<KnobChange>(&change.what)) {
     setKnob(change, *knob, home, where);
   } else if (const auto* const moved = std::get_if<Moved>(&change.what)) {

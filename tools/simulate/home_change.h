@@ -36,8 +36,11 @@ struct HomeChange {
 /// Nothing: the text is none.
 [[nodiscard]] std::optional<HomeChange> parseHomeChange(const std::string& text);
 
+enum class BeyondLimits { kRefuse, kStop };
+
 /// Throws Error{kInput} with `where` if the home has no such id, or nothing of the kind that can change in this way; a joint stays within
-/// its limits.
-void apply(const HomeChange& change, semantic::Home& home, const std::string& where);
+/// its limits. The home is then as it was. A joint whose new value is beyond its limits is
+/// refused, or stops there: those of the true home are not quite those that a scene's author can know.
+void apply(const HomeChange& change, semantic::Home& home, const std::string& where, BeyondLimits beyond = BeyondLimits::kRefuse);
 
 }  // namespace oikos::simulate

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulate/scene_script.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -131,7 +132,9 @@ std::optional<Waypoint> parseWaypoint(const std::string& text) {
   Waypoint waypoint;
   waypoint.position_map = {*number(0), *number(1)};
   for (std::size_t i = 2; i < all.size(); i += 2) {
-    if (!number(i + 1) || (all[i] != "look" && all[i] != "yaw")) {
+    const bool is_again =
+        std::find(all.begin() + 2, all.begin() + static_cast<std::ptrdiff_t>(i), all[i]) != all.begin() + static_cast<std::ptrdiff_t>(i);
+    if (!number(i + 1) || is_again || (all[i] != "look" && all[i] != "yaw")) {
       return std::nullopt;
     }
     const double angle_rad = *number(i + 1) * kRadPerDeg;

@@ -143,7 +143,7 @@ void addWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const RoomShell
   const Eigen::Vector2d direction = (b - a).normalized();
   const Eigen::Vector2d inwards(-direction.y(), direction.x());
   const auto piece = [&](double from_m, double to_m, double low_m) {
-    if (to_m - from_m < 1e-6) {
+    if (to_m - from_m < 1e-6 || low_m >= shell.height_m) {
       return;
     }
     builder.addUpright({a + from_m * direction, a + to_m * direction, low_m, shell.height_m, texture_m + Eigen::Vector2d(from_m, 0.0)},

@@ -104,6 +104,10 @@ class Simulation {
       changes_.push_back(*parseHomeChange(text));
     }
     std::stable_sort(changes_.begin(), changes_.end(), [](const HomeChange& a, const HomeChange& b) { return a.at_s < b.at_s; });
+    semantic::Home rehearsal = believed_;
+    for (const HomeChange& change : changes_) {
+      apply(change, rehearsal, job_.script.string());  // so that a late one is not refused after hours
+    }
   }
 
   SimulationSummary run() {
@@ -115,11 +119,11 @@ class Simulation {
     const camera::Calibration calibration = trueCalibration(nominal_, script_.belief, job_.seed);
     Shooter shooter(shotSettings(calibration));
     TruthLog truth(calibration);
-    const double end_s = script_.duration_s > 0.0 ? script_.duration_s : path_.duration_s() + 2.0 * script_.path.stand_s;
+    const double end_s = endOf();
     const auto frames = static_cast<int>(std::floor(end_s * script_.rate_hz)) + 1;
     Dice dice(job_.seed + 801);
     for (int i = 0; i < frames; ++i) {
-      const double time_s = i / script_.rate_hz;
+      const double time_s = static_cast<double>(toStamp(i / script_.rate_hz)) / 1e9;  // as the lists write it
       update(world, time_s);
       truth.noteStates(home_, time_s);
       const FloorPose base = path_.at(time_s - script_.path.stand_s);
@@ -140,6 +144,16 @@ class Simulation {
   }
 
  private:
+  [[nodiscard]] double endOf() const {
+    constexpr double kLongest_s = 24.0 * 3600.0;
+    const double end_s = script_.duration_s > 0.0 ? script_.duration_s : path_.duration_s() + 2.0 * script_.path.stand_s;
+    if (!(end_s <= kLongest_s)) {
+      throw base::Error(base::ErrorCode::kInput, "path: takes " + base::toText(end_s) + " s, must be at most a day; give duration_s",
+                        job_.script.string());
+    }
+    return end_s;
+  }
+
   static std::int64_t toStamp(double time_s) { return std::llround(time_s * 1e6) * 1000; }
 
   [[nodiscard]] ShotSettings shotSettings(const camera::Calibration& calibration) const {
@@ -166,7 +180,7 @@ class Simulation {
 
   void update(World& world, double time_s) {
     for (; next_change_ < changes_.size() && changes_[next_change_].at_s <= time_s; ++next_change_) {
-      apply(changes_[next_change_], home_, job_.script.string());
+      apply(changes_[next_change_], home_, job_.script.string(), BeyondLimits::kStop);
     }
     for (const Walker& walker : walkers_) {
       const double share = std::clamp((time_s - walker.from_s) / (walker.to_s - walker.from_s), 0.0, 1.0);
@@ -214,6 +228,8 @@ class Simulation {
       recording::writeTrajectory(makePrior(T_map_base_, script_.odometry, job_.seed), job_.folder / "prior.txt");
     }
     base::writeFileAtomically(job_.folder / "truth" / "home.xml", semantic::toXml(home_));
+    base::writeFileAtomically(job_.folder / "truth" / "scene.toml",
+                              "# oikos simulate --seed " + std::to_string(job_.seed) + "\n" + base::writeConfig(script_));
   }
 
   const SimulationJob& job_;

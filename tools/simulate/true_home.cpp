@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
@@ -32,44 +33,85 @@ void remeasure(Shape& shape, double sigma_m, Dice& dice) {
   }
 }
 
-Pose disturbed(const Pose& pose, double sigma_m, double sigma_deg, Dice& dice) {
+void disturbAxis(Joint& joint, double sigma_m, double sigma_deg, Dice& dice) {
   const Eigen::Vector3d axis = Eigen::Vector3d(dice.gaussian(), dice.gaussian(), dice.gaussian()).normalized();
   const double turn_rad = sigma_deg * kRadPerDeg * dice.gaussian();
-  Pose made = Pose::fromIsometry(pose.toIsometry() * Eigen::AngleAxisd(turn_rad, axis));
-  made.position_m = pose.position_m + sigma_m * Eigen::Vector3d(dice.gaussian(), dice.gaussian(), dice.gaussian());
-  return made;
+  Pose& pose = joint.T_parent_joint;
+  if (turn_rad != 0.0) {
+    pose.roll_pitch_yaw_rad = Pose::fromIsometry(pose.toIsometry() * Eigen::AngleAxisd(turn_rad, axis)).roll_pitch_yaw_rad;
+  }
+  pose.position_m += sigma_m * Eigen::Vector3d(dice.gaussian(), dice.gaussian(), dice.gaussian());
 }
 
-/// The true shape's parts, joints, handles and knobs in the states of the believed ones.
-void refit(LargeObject& object, const BeliefSettings& belief, Dice& dice) {
-  const model::ArticulatedModel shape = makeShape(*object.shape, "shape of '" + object.id.value + "'");
-  const Articulation fitted = articulationOf(shape, object.id);
-  for (Joint& joint : object.articulation->joints) {
-    const auto same =
-        std::find_if(fitted.joints.begin(), fitted.joints.end(), [&](const Joint& other) { return other.child == joint.child; });
-    if (same == fitted.joints.end()) {
-      continue;
+/// The entries of two lists that are the same thing in two shapes; calls `move(entry, before, after)`.
+template <class Entry, class Move>
+void moveAlong(std::vector<Entry>& entries, const std::vector<Entry>& before, const std::vector<Entry>& after, const Move& move) {
+  const auto findIn = [](const std::vector<Entry>& list, const Entry& wanted) {
+    return std::find_if(list.begin(), list.end(), [&](const Entry& other) {
+      if constexpr (std::is_same_v<Entry, Joint>) {
+        return other.child == wanted.child;
+      } else {
+        return other.id == wanted.id;
+      }
+    });
+  };
+  for (Entry& entry : entries) {
+    const auto was = findIn(before, entry);
+    const auto is = findIn(after, entry);
+    if (was != before.end() && is != after.end()) {
+      move(entry, *was, *is);
     }
-    joint.T_parent_joint = disturbed(same->T_parent_joint, belief.axis_m, belief.axis_deg, dice);
-    joint.lower = std::min(joint.lower, same->lower);
-    joint.upper = std::max(joint.value, same->upper);
   }
-  for (Handle& handle : object.articulation->handles) {
-    const auto same =
-        std::find_if(fitted.handles.begin(), fitted.handles.end(), [&](const Handle& other) { return other.id == handle.id; });
-    handle.T_part_handle = same == fitted.handles.end() ? handle.T_part_handle : same->T_part_handle;
-  }
-  for (Knob& knob : object.articulation->knobs) {
-    const auto same = std::find_if(fitted.knobs.begin(), fitted.knobs.end(), [&](const Knob& other) { return other.id == knob.id; });
-    knob.T_part_knob = same == fitted.knobs.end() ? knob.T_part_knob : same->T_part_knob;
+}
+
+/// Moves joints, handles and knobs by as much as the true dimensions move the shape's; what the home says otherwise stays.
+void refit(LargeObject& object, const Shape& believed) {
+  const std::string where = "shape of '" + object.id.value + "'";
+  const Articulation before = articulationOf(makeShape(believed, where), object.id);
+  const Articulation after = articulationOf(makeShape(*object.shape, where), object.id);
+  Articulation& fitted = *object.articulation;
+  moveAlong(fitted.joints, before.joints, after.joints, [](Joint& joint, const Joint& was, const Joint& is) {
+    joint.T_parent_joint.position_m += is.T_parent_joint.position_m - was.T_parent_joint.position_m;
+    joint.lower = std::min(joint.value, joint.lower + (is.lower - was.lower));
+    joint.upper = std::max(joint.value, joint.upper + (is.upper - was.upper));
+  });
+  moveAlong(fitted.handles, before.handles, after.handles, [](Handle& handle, const Handle& was, const Handle& is) {
+    handle.T_part_handle.position_m += is.T_part_handle.position_m - was.T_part_handle.position_m;
+  });
+  moveAlong(fitted.knobs, before.knobs, after.knobs, [](Knob& knob, const Knob& was, const Knob& is) {
+    knob.T_part_knob.position_m += is.T_part_knob.position_m - was.T_part_knob.position_m;
+  });
+}
+
+double heightOf(const Shape& shape) {
+  const auto found = std::find_if(shape.dimensions.begin(), shape.dimensions.end(), [](const Property& p) { return p.name == "height_m"; });
+  return found == shape.dimensions.end() ? 0.0 : base::findNumber(found->value).value_or(0.0);
+}
+
+/// What stands on top of the piece neither floats nor sinks in.
+void raiseWhatStandsOn(LargeObject& object, const Shape& believed) {
+  constexpr double kOnTop_m = 0.02;
+  const double height_m = heightOf(believed);
+  for (SmallObject& small : object.small_objects) {
+    double& z_m = small.T_parent_object.position_m.z();
+    if (small.parent == object.id.value && small.relation == Relation::kOn && std::abs(z_m - height_m) < kOnTop_m) {
+      z_m += heightOf(*object.shape) - height_m;
+    }
   }
 }
 
 void disturb(LargeObject& object, const BeliefSettings& belief, Dice& dice) {
-  if (object.shape) {
+  if (object.shape && belief.dimension_m > 0.0) {
+    const Shape believed = **object.shape;
     remeasure(object.shape->edit(), belief.dimension_m, dice);
     if (object.articulation) {
-      refit(object, belief, dice);
+      refit(object, believed);
+    }
+    raiseWhatStandsOn(object, believed);
+  }
+  if (object.articulation) {
+    for (Joint& joint : object.articulation->joints) {
+      disturbAxis(joint, belief.axis_m, belief.axis_deg, dice);
     }
   }
   object.T_map_object.position_m.head<2>() += belief.placement_m * Eigen::Vector2d(dice.gaussian(), dice.gaussian());
@@ -103,7 +145,9 @@ Home makeTrueHome(const Home& believed, const BeliefSettings& belief, std::uint6
   Home home = believed;
   for (Room& room : home.rooms) {
     Dice walls(seed + hashOf(room.id.value));
-    tiltWalls(room, belief.wall_deg, walls);
+    if (belief.wall_deg > 0.0) {
+      tiltWalls(room, belief.wall_deg, walls);
+    }
     for (CopyOnWrite<LargeObject>& object : room.objects) {
       Dice dice(seed + hashOf(object->id.value));
       disturb(object.edit(), belief, dice);

@@ -45,26 +45,27 @@ std::map<int, Patch> patchesOf(const cv::Mat& part) {
   return patches;
 }
 
-/// The pixels that a part's bounds cover, within the picture; nothing if some of it is behind the camera.
-std::optional<cv::Rect> frameOf(const render::ScenePart& part, const Eigen::Isometry3d& T_camera_part,
-                                const camera::PinholeCamera& camera) {
+/// The pixels that a part's bounds cover, within the picture and with a margin for the lens; the whole picture if some of it is behind the
+/// camera.
+cv::Rect frameOf(const render::ScenePart& part, const Eigen::Isometry3d& T_camera_part, const camera::PinholeCamera& camera,
+                 const camera::LensDistortion& distortion) {
+  constexpr int kMargin_px = 4;
+  const cv::Rect whole(0, 0, camera.width, camera.height);
   const Eigen::AlignedBox3f bounds = part.mesh_part->bounds();
   Eigen::AlignedBox2d pixels;
   for (int i = 0; i < 8; ++i) {
     const auto corner = static_cast<Eigen::AlignedBox3f::CornerType>(i);
     const Eigen::Vector3d corner_camera = T_camera_part * bounds.corner(corner).cast<double>();
     if (corner_camera.z() < 0.05) {
-      return std::nullopt;
+      return whole;
     }
-    pixels.extend(camera.project(corner_camera));
+    const Eigen::Vector2d seen = distortion.distort(corner_camera.hnormalized());
+    pixels.extend(camera.project(seen.homogeneous()));
   }
-  const cv::Rect whole(0, 0, camera.width, camera.height);
-  const cv::Point low(static_cast<int>(std::floor(std::max(-1e6, pixels.min().x()))),
-                      static_cast<int>(std::floor(std::max(-1e6, pixels.min().y()))));
-  const cv::Point high(static_cast<int>(std::ceil(std::min(1e6, pixels.max().x()))) + 1,
-                       static_cast<int>(std::ceil(std::min(1e6, pixels.max().y()))) + 1);
-  const cv::Rect frame = cv::Rect(low, high) & whole;
-  return frame.empty() ? std::nullopt : std::optional(frame);
+  const auto pixel = [](double value) { return static_cast<int>(std::lround(std::clamp(value, -1e6, 1e6))); };
+  const cv::Point low(pixel(pixels.min().x()) - kMargin_px, pixel(pixels.min().y()) - kMargin_px);
+  const cv::Point high(pixel(pixels.max().x()) + kMargin_px + 1, pixel(pixels.max().y()) + kMargin_px + 1);
+  return cv::Rect(low, high) & whole;
 }
 
 }  // namespace
@@ -122,8 +123,8 @@ void TruthLog::noteObjects(const World& world, const Shot& shot, double time_s) 
 
 /// How many pixels it would have if nothing stood before it.
 int TruthLog::pixelsAlone(const render::ScenePart& part, const Shot& shot) {
-  const std::optional<cv::Rect> frame = frameOf(part, shot.T_map_camera.inverse() * part.T_map_part, camera_);
-  if (!frame) {
+  const cv::Rect frame = frameOf(part, shot.T_map_camera.inverse() * part.T_map_part, camera_, distortion_);
+  if (frame.empty()) {
     return 0;
   }
   auto found = alone_.find(part.mesh_part.get());
@@ -134,11 +135,11 @@ int TruthLog::pixelsAlone(const render::ScenePart& part, const Shot& shot) {
   found->second.move(0, part.T_map_part, {});
   found->second.commit();
   camera::PinholeCamera crop = camera_;
-  crop.width = frame->width;
-  crop.height = frame->height;
-  crop.cx -= frame->x;
-  crop.cy -= frame->y;
-  const render::View view = renderView(found->second, render::CameraRays(crop), {shot.T_map_camera, {}}, {});
+  crop.width = frame.width;
+  crop.height = frame.height;
+  crop.cx -= frame.x;
+  crop.cy -= frame.y;
+  const render::View view = renderView(found->second, render::CameraRays(crop, distortion_), {shot.T_map_camera, {}}, {});
   return cv::countNonZero(view.depth_m == view.depth_m);
 }
 

@@ -15,7 +15,7 @@ namespace oikos::simulate {
 /// What was really there, for evaluation: `states.csv` (`t,id,value,unit`) and `objects.jsonl`, a line a frame.
 class TruthLog {
  public:
-  explicit TruthLog(const camera::Calibration& calibration) : camera_(calibration.color) {}
+  explicit TruthLog(const camera::Calibration& calibration) : camera_(calibration.color), distortion_(calibration.distortion) {}
 
   /// Every joint and knob whose value is not what was noted last; all of them the first time.
   void noteStates(const semantic::Home& home, double time_s);
@@ -27,6 +27,7 @@ class TruthLog {
   [[nodiscard]] int pixelsAlone(const render::ScenePart& part, const Shot& shot);
 
   camera::PinholeCamera camera_;
+  camera::LensDistortion distortion_;
   std::map<std::string, std::string> last_values_;
   std::map<const model::TriangleMesh*, render::Scene> alone_;  ///< each with one mesh
   std::string states_ = "t,id,value,unit\n";
