@@ -50,7 +50,10 @@ std::vector<MotionPrior> OdometryPriors::betweenNodes(const KeyframeGraph& graph
 std::vector<char> OdometryPriors::carryLostFrames(const std::vector<TrackedFrame>& frames,
                                                   std::vector<Eigen::Isometry3d>& T_world_frame) const {
   std::vector<char> carried(frames.size(), 0);
-  std::optional<std::size_t> last;
+  const bool was_ever_seen =
+      std::any_of(frames.begin(), frames.end(), [](const TrackedFrame& frame) { return frame.status != TrackingStatus::kLost; });
+  // Between bare walls there may be nothing to see from start to end; the world begins at the first frame all the same.
+  std::optional<std::size_t> last = was_ever_seen || frames.empty() ? std::nullopt : std::optional<std::size_t>(0);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (frames[i].status != TrackingStatus::kLost) {
       last = i;

@@ -20,7 +20,7 @@ class OdometryPriors {
   /// One prior between each node and the next.
   [[nodiscard]] std::vector<MotionPrior> betweenNodes(const KeyframeGraph& graph) const;
 
-  /// Moves the poses of lost frames on from the last frame that was not lost; true for those that were.
+  /// Moves the poses of lost frames on from the last frame that was not lost, or from the first if all are; true for those that were.
   [[nodiscard]] std::vector<char> carryLostFrames(const std::vector<TrackedFrame>& frames,
                                                   std::vector<Eigen::Isometry3d>& T_world_frame) const;
 

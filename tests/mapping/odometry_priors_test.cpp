@@ -123,6 +123,18 @@ TEST(OdometryPriors, CarryLostFramesOnFromTheLastThatWasSeen) {
   }
 }
 
+TEST(OdometryPriors, CarryAllFramesOnFromTheFirstIfNothingWasEverSeen) {
+  const auto frames = framesWith(std::vector<TrackingStatus>(6, TrackingStatus::kLost));
+  const Eigen::Isometry3d T_world_odom = Eigen::Translation3d(3.0, 2.0, 1.0) * Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY());
+  std::vector<Eigen::Isometry3d> poses(frames.size(), T_world_odom * basePose(0.0) * mount());
+  EXPECT_EQ(OdometryPriors(odometry(0, 10), mount()).carryLostFrames(frames, poses), std::vector<char>(6, 1));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    expectSame(poses[i], T_world_odom * basePose(0.1 * static_cast<double>(i)) * mount(), 1e-12);
+  }
+  std::vector<Eigen::Isometry3d> none;
+  EXPECT_TRUE(OdometryPriors(odometry(0, 10), mount()).carryLostFrames({}, none).empty());
+}
+
 TEST(OdometryPriors, LeaveLostFramesAloneWhereTheyKnowNothing) {
   using enum TrackingStatus;
   const auto frames = framesWith({kLost, kStart, kLost, kLost});
