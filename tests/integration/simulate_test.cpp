@@ -188,6 +188,23 @@ TEST_F(Simulate, TheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(contentOf(recorded("again", {"--threads", "1"})), one);
 }
 
+TEST_F(Simulate, TheTrueHomeDiffersFromTheBelievedOneAsTold) {
+  const std::string text = std::string(kScene) +
+                           "[belief]\ndimension_m = 0.01\nplacement_m = 0.02\naxis_deg = 0.5\nwall_deg = 0.5\nextra_part_share = 1\n"
+                           "clutter = 3\nmount_deg = 0.5\nintrinsics_share = 0.01\n";
+  const Files plain = contentOf(recorded("plain"));
+  const Files one = contentOf(recorded("one", {"--threads", "1"}, text));
+  EXPECT_EQ(contentOf(recorded("two", {"--threads", "2"}, text)), one);
+  EXPECT_EQ(one.at("camera.toml"), plain.at("camera.toml"));
+  EXPECT_NE(one.at("truth/home.xml"), plain.at("truth/home.xml"));
+  EXPECT_NE(one.at("groundtruth.txt"), plain.at("groundtruth.txt"));  // the camera is not where its mount says
+  const fs::path file = out("one") / "truth/home.xml";
+  const semantic::Home home = semantic::getHome(semantic::readHome(file), file);
+  const double shift_m = (home.rooms.at(0).objects.at(0)->T_map_object.position_m - Eigen::Vector3d(3.0, 0.0, 0.0)).norm();
+  EXPECT_GT(shift_m, 1e-4);
+  EXPECT_LT(shift_m, 0.02 * 6.0);
+}
+
 TEST_F(Simulate, AnotherSeedIsAnotherRecording) {
   const Files first = contentOf(recorded("first", {"--seed", "1"}));
   const Files second = contentOf(recorded("second", {"--seed", "2"}));

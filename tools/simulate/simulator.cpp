@@ -24,6 +24,7 @@
 #include "tools/simulate/shooter.h"
 #include "tools/simulate/true_home.h"
 #include "tools/simulate/truth_log.h"
+#include "tools/simulate/unmodelled.h"
 #include "tools/simulate/wheel_odometry.h"
 #include "tools/simulate/world.h"
 
@@ -114,7 +115,10 @@ class Simulation {
     for (const char* folder : {"rgb", "depth", "truth"}) {
       fs::create_directory(job_.folder / folder);
     }
-    World world(home_, {home_folder_, job_.seed, kWallHeight_m});
+    World world(home_, {home_folder_, job_.seed, kWallHeight_m, script_.belief.extra_part_share});
+    for (const LooseBox& box : scatterBoxes(home_, path_, {world.footprints()}, script_.belief.clutter, job_.seed)) {
+      world.add(box.model, box.T_map_model);
+    }
     addWalkers(world);
     const camera::Calibration calibration = trueCalibration(nominal_, script_.belief, job_.seed);
     Shooter shooter(shotSettings(calibration));
@@ -128,6 +132,7 @@ class Simulation {
       truth.noteStates(home_, time_s);
       const FloorPose base = path_.at(time_s - script_.path.stand_s);
       T_map_base_.push_back({toStamp(time_s), base.T_map_base()});
+      base::reportProgress(job_.progress, {"simulating", i + 1, frames});
       if (dice.next() < script_.camera.lost_share) {
         ++summary_.lost_frames;
         continue;
@@ -135,7 +140,6 @@ class Simulation {
       const Shot shot = shooter.shoot(world.scene(), path_, time_s - script_.path.stand_s, i);
       truth.noteObjects(world, shot, time_s);
       write(shot, time_s);
-      base::reportProgress(job_.progress, {"simulating", i + 1, frames});
     }
     writeLists();
     truth.write(job_.folder / "truth");

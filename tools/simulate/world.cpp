@@ -6,8 +6,10 @@
 
 #include "semantic/model/home_models.h"
 #include "semantic/model/placement.h"
+#include "tools/simulate/dice.h"
 #include "tools/simulate/dressing.h"
 #include "tools/simulate/shell.h"
+#include "tools/simulate/unmodelled.h"
 
 namespace oikos::simulate {
 
@@ -70,7 +72,11 @@ World::World(const Home& home, const WorldLook& look) {
   for (const Room& room : home.rooms) {
     for (const LargeObject& object : room.objects) {
       model::ArticulatedModel model = maker.make(object);
-      dress(model, object.type, look.seed + hashOf(object.id.value));
+      const std::uint64_t seed = look.seed + hashOf(object.id.value);
+      if (object.type != "door" && Dice(seed + 1).next() < look.extra_part_share) {
+        addUnmodelledPart(model, seed);
+      }
+      dress(model, object.type, seed);
       const Eigen::Isometry3d T_map_model = object.T_map_object.toIsometry();
       const std::vector<double> values = semantic::jointValues(object);
       pieces_[object.id.value] = {scene_.add(model, T_map_model, values), T_map_model, values, true};
@@ -150,6 +156,22 @@ void World::update(const Home& home) {
   hideTheRest(pieces_);
   hideTheRest(small_);
   scene_.commit();
+}
+
+std::vector<Eigen::AlignedBox2d> World::footprints() const {
+  std::set<int> models;
+  for (const auto& [id, piece] : pieces_) {
+    models.insert(piece.model);
+  }
+  std::vector<Eigen::AlignedBox2d> footprints_map;
+  for (const render::ScenePart& part : scene_.parts()) {
+    if (models.count(part.model) == 0) {
+      continue;
+    }
+    const Eigen::AlignedBox3d bounds_map = part.mesh_part->bounds().cast<double>().transformed(part.T_map_part);
+    footprints_map.emplace_back(bounds_map.min().head<2>(), bounds_map.max().head<2>());
+  }
+  return footprints_map;
 }
 
 std::vector<render::PointLight> ceilingLamps(const Home& home, double wall_height_m) {

@@ -18,6 +18,7 @@ struct WorldLook {
   std::filesystem::path home_folder;  ///< of the model files
   std::uint64_t seed = 0;             ///< of materials
   double wall_height_m = 2.5;
+  double extra_part_share = 0.0;  ///< of the pieces of furniture with a part that no model has
 };
 
 /// A home with its walls, floors and materials, ready to be looked at.
@@ -28,6 +29,8 @@ class World {
 
   /// Brings everything to where `home` has it: the same home in another state. What it lacks is not shown.
   void update(const semantic::Home& home);
+  /// What the furniture covers of the floor, part by part, as it stands now.
+  [[nodiscard]] std::vector<Eigen::AlignedBox2d> footprints() const;
   /// Something that is not of the home: a person, clutter. Returns its number in the scene.
   int add(const model::ArticulatedModel& model, const Eigen::Isometry3d& T_map_model) { return scene_.add(model, T_map_model, {}); }
   render::Scene& scene() { return scene_; }

@@ -67,7 +67,7 @@ const Eigen::Isometry3d kT_map_camera = test::lookAt({0.0, 0.0, 0.5}, {1.0, 0.0,
 
 /// The line that is written of one picture.
 Json noted(const semantic::Home& home, const Eigen::Isometry3d& T_map_camera, const camera::LensDistortion& distortion = {}) {
-  const World world(home, {".", 0, 2.5});
+  const World world(home, {".", 0, 2.5, 0.0});
   TruthLog log(calibrationOf(distortion));
   log.noteObjects(world, shotOf(world, calibrationOf(distortion), T_map_camera), 1.5);
   const test::TemporaryFolder folder;

@@ -65,7 +65,7 @@ class Worlds : public testing::Test {
 
   /// Made once: its textures take longer than the tests.
   static World& sharedWorld() {
-    static World world(smallHome(), {".", 1, 2.5});
+    static World world(smallHome(), {".", 1, 2.5, 0.0});
     return world;
   }
   World& world_ = sharedWorld();
@@ -114,7 +114,7 @@ TEST_F(Worlds, ThereAndBackAgainGivesTheSameBytes) {
 }
 
 TEST_F(Worlds, AStateReachedIsTheSameAsOneStartedIn) {
-  const World made(changed("table at 0.8 0.1 0 0 0 90"), {".", 1, 2.5});
+  const World made(changed("table at 0.8 0.1 0 0 0 90"), {".", 1, 2.5, 0.0});
   world_.update(changed("table at 0.8 0.1 0 0 0 90"));
   EXPECT_TRUE(areEqual(tableView(world_), tableView(made)));
 }
