@@ -165,7 +165,8 @@ class History::Database {
           of_subject(database, select(kWhole, {"e.subject = ?", kCounts}, "ORDER BY e.time_ns, e.number")),
           last_of_subject(database,
                           select(kWhole, {"e.subject = ?", "e.time_ns <= ?", kCounts}, "ORDER BY e.time_ns DESC, e.number DESC LIMIT ?")),
-          between(database, select(kWhole, {"e.time_ns >= ?", "e.time_ns < ?", kCounts}, "ORDER BY e.time_ns, e.number")),
+          between(database, select(kWhole, {"e.time_ns >= ?", "e.time_ns < ?", kCounts}, "ORDER BY e.time_ns, e.number LIMIT ? OFFSET ?")),
+          count_between(database, select("count(*)", {"e.time_ns >= ?", "e.time_ns < ?", kCounts}, "")),
           state_at(database, select(kWhole, {"e.subject = ?", "e.time_ns <= ?", kSaysState, kCounts},
                                     "ORDER BY e.time_ns DESC, e.number DESC LIMIT 1")),
           state_after(database,
@@ -188,6 +189,7 @@ class History::Database {
     SqliteStatement of_subject;
     SqliteStatement last_of_subject;
     SqliteStatement between;
+    SqliteStatement count_between;
     SqliteStatement state_at;
     SqliteStatement state_after;
     SqliteStatement sighting_at;
@@ -358,15 +360,29 @@ std::vector<Event> History::lastEventsOf(std::string_view subject, std::int64_t 
   return events;
 }
 
-std::vector<Event> History::eventsBetween(std::int64_t from_ns, std::int64_t to_ns) const {
+std::vector<Event> History::eventsBetween(const Window& window) const {
+  constexpr std::size_t kMost = std::numeric_limits<std::int64_t>::max();
   return database_->withReads(
       [&](Database::Reads& reads) {
         const SqliteUse use(reads.between);
-        use->bind(1, from_ns);
-        use->bind(2, to_ns);
+        use->bind(1, window.from_ns);
+        use->bind(2, window.to_ns);
+        use->bind(3, static_cast<std::int64_t>(std::min(window.limit, kMost)));
+        use->bind(4, static_cast<std::int64_t>(std::min(window.offset, kMost)));
         return database_->allOf(*use);
       },
       std::vector<Event>());
+}
+
+std::size_t History::countBetween(std::int64_t from_ns, std::int64_t to_ns) const {
+  return database_->withReads(
+      [&](Database::Reads& reads) {
+        const SqliteUse use(reads.count_between);
+        use->bind(1, from_ns);
+        use->bind(2, to_ns);
+        return use->step() ? static_cast<std::size_t>(use->integer(0)) : 0U;
+      },
+      std::size_t{0});
 }
 
 std::optional<Event> History::findStateAt(std::string_view subject, std::int64_t time_ns) const {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -50,8 +51,17 @@ class History {
   [[nodiscard]] std::vector<Event> eventsOf(std::string_view subject) const;
   /// The newest by `time_ns`, at most `limit`; in the same order.
   [[nodiscard]] std::vector<Event> lastEventsOf(std::string_view subject, std::int64_t time_ns, std::size_t limit) const;
-  /// With from_ns <= time_ns < to_ns, in the order of time, then of commits. Without what was taken back.
-  [[nodiscard]] std::vector<Event> eventsBetween(std::int64_t from_ns, std::int64_t to_ns) const;
+  /// With from_ns <= time_ns < to_ns, in the order of time, then of commits, `limit` of them from the one numbered `offset` on. Without
+  /// what was taken back.
+  struct Window {
+    std::int64_t from_ns = 0;
+    std::int64_t to_ns = 0;
+    std::size_t offset = 0;
+    std::size_t limit = std::numeric_limits<std::size_t>::max();
+  };
+  [[nodiscard]] std::vector<Event> eventsBetween(const Window& window) const;
+  /// How many there are in the window's time.
+  [[nodiscard]] std::size_t countBetween(std::int64_t from_ns, std::int64_t to_ns) const;
   /// The newest at `time_ns` that says something about the subject's state; nothing: it had said nothing by then. O(log n).
   [[nodiscard]] std::optional<Event> findStateAt(std::string_view subject, std::int64_t time_ns) const;
   /// The first after `time_ns` that does. O(log n).

@@ -211,7 +211,7 @@ void answerChanges(AnswerContext& ctx) {
   }
   const TimeSpan span = ctx.span().value_or(TimeSpan{ctx.clock().instantOf({ctx.clock().today(), 0}), ctx.clock().now_ns() + 1, false});
   EventTeller teller(ctx.index());
-  std::vector<Event> events = ctx.history()->eventsBetween(span.from_ns, std::max(span.to_ns, span.from_ns + 1));
+  std::vector<Event> events = ctx.history()->eventsBetween({span.from_ns, std::max(span.to_ns, span.from_ns + 1)});
   std::erase_if(events, [&](const Event& event) {
     return !isChange(*ctx.history(), event) || !isAskedFor(ctx, event, teller.thingOf(event.subject), *asked);
   });

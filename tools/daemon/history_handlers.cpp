@@ -132,7 +132,14 @@ Response answerChanges(const Call& call) {
   if (!since_ns) {
     return failure(400, "bad_request", "since: the time is missing, such as 2024-05-17T09:30:00Z");
   }
-  return eventsResponse(call.service.history().eventsBetween(*since_ns, std::numeric_limits<std::int64_t>::max()), page);
+  constexpr std::int64_t kEver_ns = std::numeric_limits<std::int64_t>::max();
+  const semantic::History& history = call.service.history();
+  Json json{{"events", Json::array()}};
+  for (const Event& event : history.eventsBetween({*since_ns, kEver_ns, page.offset, page.limit})) {
+    json["events"].push_back(semantic::toJson(event));
+  }
+  page.describe(json, history.countBetween(*since_ns, kEver_ns));
+  return jsonResponse(json);
 }
 
 Response answerState(const Call& call) {

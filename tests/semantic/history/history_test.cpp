@@ -125,7 +125,13 @@ TEST_F(HistoryTest, ATakenBackRecordingSaysNothingMoreAndMayComeAgain) {
   EXPECT_EQ(settingOf(history.findStateAt("oven", 19)), "on");
   EXPECT_EQ(history.findLastRecording()->recording, "a");
   EXPECT_EQ(history.eventsOf("oven").size(), 2U);
-  EXPECT_EQ(history.eventsBetween(0, 100).size(), 2U);
+  EXPECT_EQ(history.eventsBetween({0, 100}).size(), 2U);
+  EXPECT_EQ(history.countBetween(0, 100), 2U);
+  const std::vector<Event> second = history.eventsBetween({0, 100, 1, 5});
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_EQ(second[0].number, history.eventsBetween({0, 100})[1].number);
+  EXPECT_EQ(history.eventsBetween({0, 100, 0, 1}).size(), 1U);
+  EXPECT_TRUE(history.eventsBetween({0, 100, 2, 1}).empty());
   EXPECT_EQ(history.eventsAfter(0, 100).size(), 3U);  // nothing is ever lost
   append(history, {knob("oven", 21, "warm", "b")});
   EXPECT_EQ(settingOf(history.findStateAt("oven", 25)), "warm");
