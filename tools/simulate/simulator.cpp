@@ -112,18 +112,18 @@ class Simulation {
   }
 
   SimulationSummary run() {
+    const double end_s = endOf();
     for (const char* folder : {"rgb", "depth", "truth"}) {
       fs::create_directory(job_.folder / folder);
     }
     World world(home_, {home_folder_, job_.seed, kWallHeight_m, script_.belief.extra_part_share});
-    for (const LooseBox& box : scatterBoxes(home_, path_, {world.footprints()}, script_.belief.clutter, job_.seed)) {
+    for (const LooseBox& box : scatterBoxes(home_, path_, {world.footprints(), end_s}, script_.belief.clutter, job_.seed)) {
       world.add(box.model, box.T_map_model);
     }
     addWalkers(world);
     const camera::Calibration calibration = trueCalibration(nominal_, script_.belief, job_.seed);
     Shooter shooter(shotSettings(calibration));
     TruthLog truth(calibration);
-    const double end_s = endOf();
     const auto frames = static_cast<int>(std::floor(end_s * script_.rate_hz)) + 1;
     Dice dice(job_.seed + 801);
     for (int i = 0; i < frames; ++i) {

@@ -15,10 +15,10 @@ namespace oikos::simulate {
 
 namespace {
 
-std::vector<Eigen::Vector2d> placesOf(const RobotPath& path) {
+std::vector<Eigen::Vector2d> placesOf(const RobotPath& path, double until_s) {
   constexpr double kStep_s = 0.1;
   std::vector<Eigen::Vector2d> places_map;
-  for (double time_s = 0.0; time_s < path.duration_s() + kStep_s; time_s += kStep_s) {
+  for (double time_s = 0.0; time_s < std::min(until_s, path.duration_s()) + kStep_s; time_s += kStep_s) {
     places_map.push_back(path.at(time_s).position_m);
   }
   return places_map;
@@ -34,7 +34,7 @@ bool isOnAFloor(const Eigen::Vector2d& place_map, double radius_m, const semanti
 class FloorSearch {
  public:
   FloorSearch(const semantic::Home& home, const RobotPath& path, FreeFloor floor)
-      : home_(home), way_map_(placesOf(path)), floor_(std::move(floor)) {
+      : home_(home), way_map_(placesOf(path, floor.until_s)), floor_(std::move(floor)) {
     for (const semantic::Room& room : home.rooms) {
       for (const Eigen::Vector2d& corner : room.outline_map) {
         whole_.extend(corner);

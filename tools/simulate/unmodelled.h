@@ -23,7 +23,8 @@ struct LooseBox {
 /// Where boxes may lie.
 struct FreeFloor {
   std::vector<Eigen::AlignedBox2d> footprints_map;  ///< of what stands there
-  double beside_path_m = 0.4;                       ///< so far from the robot's base
+  double until_s = 0.0;                             ///< the robot's way up to then is kept free
+  double beside_path_m = 0.4;                       ///< so far from its base
 };
 
 /// `count` boxes on the floors of the home's rooms, or as many as find a free place.

@@ -32,7 +32,7 @@ TEST(ScatterBoxes, LieOnFreeFloorBesideTheWay) {
   const Eigen::AlignedBox2d table(Eigen::Vector2d(0.5, -0.4), Eigen::Vector2d(1.5, 0.4));
   int count = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const std::vector<LooseBox> boxes = scatterBoxes(home, alongTheKitchen(), {{table}}, 5, seed);
+    const std::vector<LooseBox> boxes = scatterBoxes(home, alongTheKitchen(), {{table}, 60.0}, 5, seed);
     count += static_cast<int>(boxes.size());
     for (const LooseBox& box : boxes) {
       const Eigen::Vector2d place = box.T_map_model.translation().head<2>();
