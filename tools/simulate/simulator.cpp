@@ -116,7 +116,7 @@ class Simulation {
     for (const char* folder : {"rgb", "depth", "truth"}) {
       fs::create_directory(job_.folder / folder);
     }
-    World world(home_, {home_folder_, job_.seed, kWallHeight_m, script_.belief.extra_part_share});
+    World world(home_, {home_folder_, job_.seed, kWallHeight_m, script_.belief.extra_part_share, job_.threads});
     for (const LooseBox& box : scatterBoxes(home_, path_, {world.footprints(), end_s}, script_.belief.clutter, job_.seed)) {
       world.add(box.model, box.T_map_model);
     }

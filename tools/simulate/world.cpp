@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/parallel.h"
 #include "semantic/model/home_models.h"
 #include "semantic/model/placement.h"
 #include "tools/simulate/dice.h"
@@ -64,29 +65,58 @@ double areaOf(const std::vector<Eigen::Vector2d>& outline) {
   return 0.5 * std::abs(twice);
 }
 
+/// A piece on its way into the scene.
+struct Draft {
+  std::string id;
+  std::string type;
+  std::uint64_t seed = 0;
+  bool is_small = false;
+  model::ArticulatedModel model;
+  Eigen::Isometry3d T_map_model = Eigen::Isometry3d::Identity();
+  std::vector<double> joint_values;
+};
+
+std::vector<Draft> draftsOf(const Home& home, const WorldLook& look) {
+  semantic::ModelMaker maker(look.home_folder);
+  std::vector<Draft> drafts;
+  for (const Room& room : home.rooms) {
+    for (const LargeObject& object : room.objects) {
+      Draft draft{object.id.value,
+                  object.type,
+                  look.seed + hashOf(object.id.value),
+                  false,
+                  maker.make(object),
+                  object.T_map_object.toIsometry(),
+                  semantic::jointValues(object)};
+      if (object.type != "door" && Dice(draft.seed + 1).next() < look.extra_part_share) {
+        addUnmodelledPart(draft.model, draft.seed);
+      }
+      drafts.push_back(std::move(draft));
+    }
+  }
+  forEachSmall(home, [&](const SmallObject& small, const Eigen::Isometry3d& T_map_object) {
+    drafts.push_back({small.id.value, small.type, look.seed + hashOf(small.id.value), true, maker.make(small), T_map_object, {}});
+  });
+  return drafts;
+}
+
 }  // namespace
 
 World::World(const Home& home, const WorldLook& look) {
   addRooms(home, look);
-  semantic::ModelMaker maker(look.home_folder);
-  for (const Room& room : home.rooms) {
-    for (const LargeObject& object : room.objects) {
-      model::ArticulatedModel model = maker.make(object);
-      const std::uint64_t seed = look.seed + hashOf(object.id.value);
-      if (object.type != "door" && Dice(seed + 1).next() < look.extra_part_share) {
-        addUnmodelledPart(model, seed);
-      }
-      dress(model, object.type, seed);
-      const Eigen::Isometry3d T_map_model = object.T_map_object.toIsometry();
-      const std::vector<double> values = semantic::jointValues(object);
-      pieces_[object.id.value] = {scene_.add(model, T_map_model, values), T_map_model, values, true};
+  std::vector<Draft> drafts = draftsOf(home, look);
+  base::parallelFor(static_cast<int>(drafts.size()), look.threads, [&](int i) {
+    Draft& draft = drafts[static_cast<std::size_t>(i)];
+    dress(draft.model, draft.type, draft.seed);
+  });
+  for (Draft& draft : drafts) {
+    const int number = scene_.add(draft.model, draft.T_map_model, draft.joint_values);
+    if (draft.is_small) {
+      small_[draft.id] = {draft.id, number, draft.T_map_model, true};
+    } else {
+      pieces_[draft.id] = {number, draft.T_map_model, std::move(draft.joint_values), true};
     }
   }
-  forEachSmall(home, [&](const SmallObject& small, const Eigen::Isometry3d& T_map_object) {
-    model::ArticulatedModel model = maker.make(small);
-    dress(model, small.type, look.seed + hashOf(small.id.value));
-    small_[small.id.value] = {small.id.value, scene_.add(model, T_map_object, {}), T_map_object, true};
-  });
   scene_.commit();
 }
 
@@ -103,13 +133,19 @@ void World::addRooms(const Home& home, const WorldLook& look) {
   if (!thresholds->empty()) {
     scene_.add(thresholds, Eigen::Isometry3d::Identity());
   }
-  for (const Room& room : home.rooms) {
-    if (room.outline_map.size() < 3) {
-      continue;
+  std::vector<std::shared_ptr<model::TriangleMesh>> shells(home.rooms.size());
+  base::parallelFor(static_cast<int>(shells.size()), look.threads, [&](int i) {
+    const Room& room = home.rooms[static_cast<std::size_t>(i)];
+    if (room.outline_map.size() >= 3) {
+      auto shell = std::make_shared<model::TriangleMesh>(makeShell({room.outline_map, openings, look.wall_height_m}));
+      dressShell(*shell, room.type, look.seed + hashOf(room.id.value));
+      shells[static_cast<std::size_t>(i)] = std::move(shell);
     }
-    auto shell = std::make_shared<model::TriangleMesh>(makeShell({room.outline_map, openings, look.wall_height_m}));
-    dressShell(*shell, room.type, look.seed + hashOf(room.id.value));
-    scene_.add(shell, Eigen::Isometry3d::Identity());
+  });
+  for (const std::shared_ptr<model::TriangleMesh>& shell : shells) {
+    if (shell) {
+      scene_.add(shell, Eigen::Isometry3d::Identity());
+    }
   }
 }
 

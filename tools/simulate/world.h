@@ -19,6 +19,7 @@ struct WorldLook {
   std::uint64_t seed = 0;             ///< of materials
   double wall_height_m = 2.5;
   double extra_part_share = 0.0;  ///< of the pieces of furniture with a part that no model has
+  int threads = 1;                ///< to make the materials with; the same bytes for any number
 };
 
 /// A home with its walls, floors and materials, ready to be looked at.
