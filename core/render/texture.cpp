@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 namespace oikos::render {
@@ -43,9 +44,9 @@ Eigen::Vector3f linearRgb(const cv::Vec3b& bgr) {
   return {table[bgr[2]], table[bgr[1]], table[bgr[0]]};
 }
 
+/// Of an index that is at most one step out of range.
 int wrapped(int index, int size) {
-  const int remainder = index % size;
-  return remainder < 0 ? remainder + size : remainder;
+  return index < 0 ? index + size : index >= size ? index - size : index;
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ TexturePyramid::TexturePyramid(const cv::Mat& texture) : levels_{texture} {
 }
 
 Eigen::Vector3f TexturePyramid::at(const Eigen::Vector2f& coordinate, float footprint_px) const {
-  const int level = footprint_px > 1.0F ? static_cast<int>(std::lround(std::log2(footprint_px))) : 0;
+  const int level = footprint_px > 1.0F ? std::ilogb(footprint_px * std::numbers::sqrt2_v<float>) : 0;  // the logarithm, rounded
   const cv::Mat& image = levels_[static_cast<std::size_t>(std::min(level, static_cast<int>(levels_.size()) - 1))];
   const float x = (coordinate.x() - std::floor(coordinate.x())) * static_cast<float>(image.cols) - 0.5F;
   const float y = (1.0F - (coordinate.y() - std::floor(coordinate.y()))) * static_cast<float>(image.rows) - 0.5F;
@@ -81,11 +82,13 @@ Eigen::Vector3f TexturePyramid::at(const Eigen::Vector2f& coordinate, float foot
   const auto top = static_cast<int>(std::floor(y));
   const float right_share = x - static_cast<float>(left);
   const float lower_share = y - static_cast<float>(top);
-  const auto texel = [&](int column, int row) {
-    return linearRgb(image.at<cv::Vec3b>(wrapped(row, image.rows), wrapped(column, image.cols)));
-  };
-  return (1.0F - lower_share) * ((1.0F - right_share) * texel(left, top) + right_share * texel(left + 1, top)) +
-         lower_share * ((1.0F - right_share) * texel(left, top + 1) + right_share * texel(left + 1, top + 1));
+  const auto* const upper = image.ptr<cv::Vec3b>(wrapped(top, image.rows));
+  const auto* const lower = image.ptr<cv::Vec3b>(wrapped(top + 1, image.rows));
+  const int left_column = wrapped(left, image.cols);
+  const int right_column = wrapped(left + 1, image.cols);
+  const Eigen::Vector3f above = (1.0F - right_share) * linearRgb(upper[left_column]) + right_share * linearRgb(upper[right_column]);
+  const Eigen::Vector3f below = (1.0F - right_share) * linearRgb(lower[left_column]) + right_share * linearRgb(lower[right_column]);
+  return (1.0F - lower_share) * above + lower_share * below;
 }
 
 }  // namespace oikos::render
