@@ -6,9 +6,11 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <assimp/DefaultIOSystem.h>
 #include <algorithm>
 #include <array>
 #include <assimp/IOSystem.hpp>
+
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
@@ -188,7 +190,8 @@ AssimpScene::AssimpScene(ModelFolder& folder, MeshFormat format, std::size_t max
   if (scene_ == nullptr) {
     throw Error(ErrorCode::kInput, "its polygons cannot be cut into triangles", file.string());
   }
-  importer_->SetIOHandler(nullptr);  // what it referred to ends here
+  // What ours refers to ends here. Another takes its place, since a null pointer would leak it.
+  importer_->SetIOHandler(new Assimp::DefaultIOSystem);
 }
 
 AssimpScene::~AssimpScene() = default;
