@@ -2,15 +2,14 @@
 #include "core/model/assimp_scene.h"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <assimp/DefaultIOSystem.h>
 #include <algorithm>
 #include <array>
 #include <assimp/IOSystem.hpp>
-
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
