@@ -203,7 +203,8 @@ TEST(Serve, EndsInTwoSecondsUnderLoadAndWritesHomeXml) {
   writers.waitForAcknowledged(200);
   daemon.process().send(SIGTERM);
   EXPECT_TRUE(daemon.process().hasEndedWithin(std::chrono::seconds(2)));
-  EXPECT_EQ(daemon.process().finish().exit_code, 0);
+  const ProcessResult ended = daemon.process().finish();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
   expectStored(home.path(), writers.join());
   const semantic::HomeReading reading = semantic::readHome(home.path() / "home.xml");
   EXPECT_TRUE(reading.complete && reading.findings.empty());
