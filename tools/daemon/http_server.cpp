@@ -3,6 +3,7 @@
 
 #include <microhttpd.h>
 #include <netdb.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -187,7 +188,10 @@ void HttpServer::Impl::stop() {
   if (library_ == nullptr) {
     return;
   }
-  ::close(MHD_quiesce_daemon(library_));
+  // Refuses from now on, but stays open to the end: a thread of the library that is about to take it out of its epoll set aborts the
+  // process if it is closed by then.
+  const base::FileDescriptor quiesced(MHD_quiesce_daemon(library_));
+  ::shutdown(quiesced.number(), SHUT_RDWR);
   { const base::FileDescriptor closed(std::move(listening_)); }
   streams_.stop();
   letRequestsEnd();
