@@ -84,7 +84,7 @@ void addLoops(const MapFacts& facts, MapReport& report) {
     report.loops.push_back(loop);
   }
   for (const LoopAttempt& attempt : facts.drive.loop_attempts) {
-    if (attempt.verdict == LoopCheck::kGeometryDisagrees) {
+    if (attempt.verdict == LoopCheck::kGeometryDisagrees || attempt.verdict == LoopCheck::kWheelsDisagree) {
       report.loops.push_back({position.at(attempt.frame), position.at(graph.nodes[static_cast<std::size_t>(attempt.from)].frame),
                               attempt.inliers, attempt.rms_px, LoopVerdict::kRejectedByGeometry});
     }

@@ -89,10 +89,13 @@ class Mapper {
  private:
   void track() {
     const auto seed = static_cast<std::uint64_t>(run_.seed);
+    const std::optional<recording::Trajectory> T_odom_base = recording_.findOdometry();
+    odometry_without_mount_ = T_odom_base && !T_base_camera_;
+    odometry_ = WheelOdometry(T_odom_base, T_base_camera_);
     if (config_.kind == FrontEndKind::kPairwise) {
       feed(PairwiseFrontEnd(recording_.camera(), config_.pairwise, config_.front_end.features, config_.front_end.motion, seed));
     } else {
-      feed(FrontEnd(recording_.camera(), config_.front_end, images_, seed));
+      feed(FrontEnd({recording_.camera(), odometry_, images_}, config_.front_end, config_.back_end.loops, seed));
     }
     if (drive_.frames.empty()) {
       throw base::Error(base::ErrorCode::kInput, "no frame could be read");
@@ -113,9 +116,6 @@ class Mapper {
   }
 
   void optimise() {
-    const std::optional<recording::Trajectory> T_odom_base = recording_.findOdometry();
-    odometry_without_mount_ = T_odom_base && !T_base_camera_;
-    odometry_ = OdometryPriors(T_odom_base, T_base_camera_);
     const BackEndTools tools{recording_.camera(),
                              config_.front_end.follower,
                              images_,
@@ -123,9 +123,9 @@ class Mapper {
                              config_.front_end.pyramid_levels,
                              run_.threads,
                              run_.progress};
-    const std::vector<MotionPrior> priors = odometry_.betweenNodes(drive_.graph);
+    const std::vector<MotionPrior> priors = motionPriors(odometry_, drive_.graph);
     optimised_ = optimiseDrive(drive_, priors, config_.back_end, tools);
-    coasting_ = odometry_.carryLostFrames(drive_.frames, optimised_.T_world_frame);
+    coasting_ = carryLostFrames(odometry_, drive_.frames, optimised_.T_world_frame);
     forgetObservations();
   }
 
@@ -290,7 +290,7 @@ class Mapper {
   StageClock clock_;
   recording::StreamStatistics statistics_;
   FrontEndResult drive_;
-  OdometryPriors odometry_;
+  WheelOdometry odometry_;
   bool odometry_without_mount_ = false;
   BackEndResult optimised_;
   std::vector<char> coasting_;

@@ -110,7 +110,7 @@ BackEndResult optimiseDrive(FrontEndResult& drive, const std::vector<MotionPrior
   BackEndResult result;
   base::reportProgress(tools.progress, {"closing loops", 0, 0});
   result.T_world_frame_odometry = posesFromReferences(drive.graph, drive.frames);
-  result.believed = consistentEdges(drive.graph, config.loops);
+  result.believed = consistentEdges(drive.graph, priors, config.loops);
   result.submaps_left = joinSubmaps(drive.graph, result.believed, priors);
   result.pose_graph = optimisePoseGraph(drive.graph, result.believed, priors, config.pose_graph);
   acceptLoopObservations(drive.graph, result.believed);

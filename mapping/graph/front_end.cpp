@@ -28,8 +28,8 @@ std::vector<Observation> evenlyThinned(const std::vector<Observation>& observati
 
 }  // namespace
 
-FrontEnd::FrontEnd(const camera::PinholeCamera& camera, const FrontEndConfig& config, KeyframeImages& images, std::uint64_t seed)
-    : camera_(camera), config_(config), images_(images), seed_(seed) {}
+FrontEnd::FrontEnd(const FrontEndTools& tools, const FrontEndConfig& config, const LoopConsistencyConfig& loops, std::uint64_t seed)
+    : camera_(tools.camera), odometry_(tools.odometry), images_(tools.images), config_(config), loops_(loops), seed_(seed) {}
 
 void FrontEnd::add(const camera::RgbdFrame& frame) {
   Current current{frame, std::make_shared<const ImagePyramid>(frame.gray, config_.pyramid_levels), {}};
@@ -39,9 +39,10 @@ void FrontEnd::add(const camera::RgbdFrame& frame) {
     }
     return;
   }
+  carryOn(current);
   FollowResult seen = follow(current, predict(current), active_);
   TrackingStatus status = TrackingStatus::kTracked;
-  if (!seen.tracked) {
+  if (!seen.tracked || wheelsContradict(seen.pose.T_world_camera)) {
     status = TrackingStatus::kLost;
     if (auto recovered = recover(current)) {
       seen = std::move(*recovered);
@@ -53,6 +54,7 @@ void FrontEnd::add(const camera::RgbdFrame& frame) {
   }
   if (status != TrackingStatus::kLost) {
     lost_in_a_row_ = 0;
+    wheels_ = WheelWay();
     T_previous_current_ = T_world_camera_.inverse() * seen.pose.T_world_camera;
     if (status == TrackingStatus::kRelocalised) {
       T_previous_current_.setIdentity();
@@ -63,10 +65,29 @@ void FrontEnd::add(const camera::RgbdFrame& frame) {
       addKeyframe(current, seen);
     }
   } else {
+    T_world_camera_ = wheels_ ? T_world_camera_ * T_previous_current_ : T_world_camera_;
     T_previous_current_.setIdentity();
   }
   record(current, seen, status);
   previous_ = current.pyramid;
+}
+
+/// The wheels know better than the last motion how the camera has moved since the last frame.
+void FrontEnd::carryOn(const Current& current) {
+  const auto T_previous_current = odometry_.findMotion(result_.frames.back().stamp_ns, current.frame.stamp_ns);
+  if (!T_previous_current) {
+    wheels_.reset();
+    return;
+  }
+  T_previous_current_ = *T_previous_current;
+  if (wheels_) {
+    wheels_->add(*T_previous_current);
+  }
+}
+
+bool FrontEnd::wheelsContradict(const Eigen::Isometry3d& T_world_camera) const {
+  const Eigen::Isometry3d T_world_expected = T_world_camera_ * T_previous_current_;
+  return wheels_ && !config_.wheels.allows(T_world_expected.inverse() * T_world_camera, *wheels_);
 }
 
 /// A frame without enough to follow (a covered lens, the dark) is no place to begin at.
@@ -75,9 +96,14 @@ bool FrontEnd::startSubmap(const Current& current) {
     return false;
   }
   lost_in_a_row_ = 0;
+  T_world_camera_ = wheels_ ? T_world_camera_ * T_previous_current_ : T_world_camera_;
+  wheels_ = WheelWay();
   active_.clear();
   Current first = current;
-  const int node = addNode(first, T_world_camera_, true);
+  const int node = addNode(first, T_world_camera_);
+  result_.graph.nodes.back().keyframe = true;
+  latest_ = node;
+  bridgeTo(node);
   ++result_.submaps;
   result_.graph.nodes.back().submap = result_.submaps - 1;
   host(current, node, {});
@@ -91,6 +117,16 @@ bool FrontEnd::startSubmap(const Current& current) {
   record(current, seen, TrackingStatus::kStart);
   previous_ = current.pyramid;
   return true;
+}
+
+/// As far as the wheels know how the camera came here from the node before.
+void FrontEnd::bridgeTo(int node) {
+  const auto later = static_cast<std::size_t>(node);
+  if (later > 0) {
+    if (const auto T_before_now = odometry_.findMotion(result_.graph.nodes[later - 1].stamp_ns, result_.graph.nodes[later].stamp_ns)) {
+      bridges_.push_back({node - 1, node, *T_before_now});
+    }
+  }
 }
 
 FrontEndResult FrontEnd::finish() {
@@ -177,27 +213,31 @@ bool FrontEnd::borrowFromNeighbours(const Current& current, FollowResult& seen) 
 void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
   const Features& features = current.getFeatures(camera_, config_.features);
   const std::vector<Revisit> revisits = findRevisits(current);
-  const auto best =
-      std::max_element(revisits.begin(), revisits.end(), [](const Revisit& a, const Revisit& b) { return a.overlap < b.overlap; });
-  const bool reuse = best != revisits.end() && best->overlap >= config_.reuse_overlap;
   const int parent = reference_;
-  const int node = addNode(current, seen.pose.T_world_camera, !reuse);
+  const int node = addNode(current, seen.pose.T_world_camera);
   addEdge(parent, node, EdgeKind::kOdometry, seen, seen.pose.T_world_camera);
   Node& added = result_.graph.nodes[static_cast<std::size_t>(node)];
   added.submap = result_.graph.nodes[static_cast<std::size_t>(parent)].submap;
   added.observations = seen.observations;
+  const Revisit* reused = nullptr;
   for (const Revisit& revisit : revisits) {
     addEdge(revisit.node, node, EdgeKind::kLoop, revisit.seen, revisit.seen.pose.T_world_camera);
     result_.graph.edges.back().observations = revisit.seen.observations;
+    const bool enough = revisit.overlap >= config_.reuse_overlap && (!reused || revisit.overlap > reused->overlap);
+    if (enough && driftAllows(result_.graph, result_.graph.edges.back(), bridges_, loops_)) {
+      reused = &revisit;
+    }
   }
-  if (reuse) {
+  if (reused != nullptr) {
     ++result_.reused_keyframes;
-    seen = best->seen;
+    seen = reused->seen;
     adopt(seen);
-    active_ = landmarksAbout(best->node, config_.neighbourhood, T_world_camera_);
+    active_ = landmarksAbout(reused->node, config_.neighbourhood, T_world_camera_);
     seen_at_keyframe_ = seen.pose.inliers;
     return;
   }
+  added.keyframe = true;
+  latest_ = node;
   result_.features.back() = features;
   places_.add(node, features);
   host(current, node, seen.observations);
@@ -205,16 +245,15 @@ void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
   seen_at_keyframe_ = static_cast<int>(active_.size());
 }
 
-int FrontEnd::addNode(const Current& current, const Eigen::Isometry3d& T_world_camera, bool keyframe) {
+int FrontEnd::addNode(const Current& current, const Eigen::Isometry3d& T_world_camera) {
   Node node;
   node.frame = current.frame.index;
   node.stamp_ns = current.frame.stamp_ns;
-  node.keyframe = keyframe;
+  node.keyframe = false;
   node.T_world_camera = T_world_camera;
   result_.graph.nodes.push_back(std::move(node));
   result_.features.emplace_back();
   const int id = static_cast<int>(result_.graph.nodes.size()) - 1;
-  latest_ = keyframe ? id : latest_;
   images_.put(current.frame.index, current.pyramid);
   return id;
 }

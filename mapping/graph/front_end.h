@@ -10,11 +10,13 @@
 #include "core/camera/rgbd_frame.h"
 #include "mapping/graph/keyframe_graph.h"
 #include "mapping/graph/keyframe_images.h"
+#include "mapping/graph/loop_consistency.h"
 #include "mapping/graph/place_index.h"
 #include "mapping/odometry/corner_detector.h"
 #include "mapping/odometry/features.h"
 #include "mapping/odometry/landmark_follower.h"
 #include "mapping/odometry/relative_motion.h"
+#include "mapping/odometry/wheel_odometry.h"
 
 namespace oikos::mapping {
 
@@ -35,6 +37,7 @@ struct FrontEndConfig {
   double reuse_overlap = 0.6;  ///< share of an old keyframe's landmarks that must be seen again to take it instead of a new one
   int kept_sightings = 160;    ///< of a frame's landmarks, for its final pose: what is kept of every frame grows with the drive
   int max_lost_frames = 5;     ///< lost for longer: a new sub-map is begun where there is enough to follow
+  WheelGate wheels;            ///< a pose that the wheels contradict is not believed: much in a home looks alike
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -54,6 +57,7 @@ struct FrontEndConfig {
     visitor("reuse_overlap", reuse_overlap);
     visitor("kept_sightings", kept_sightings);
     visitor("max_lost_frames", max_lost_frames);
+    visitor("wheels", wheels);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
@@ -72,7 +76,7 @@ struct TrackedFrame {
   double rms_px = 0.0;
 };
 
-enum class LoopCheck { kTooFewMatches, kGeometryDisagrees, kAccepted };
+enum class LoopCheck { kTooFewMatches, kGeometryDisagrees, kWheelsDisagree, kAccepted };
 
 struct LoopAttempt {
   int from = -1;   ///< the old node
@@ -94,11 +98,19 @@ struct FrontEndResult {
   int reused_keyframes = 0;
 };
 
+/// What the front end works with; all of it outlives the front end.
+struct FrontEndTools {
+  const camera::PinholeCamera& camera;
+  const WheelOdometry& odometry;  ///< may know nothing
+  KeyframeImages& images;
+};
+
 /// From images to a graph of keyframes, one frame at a time: follows landmarks, sets keyframes where the view changes, recognises
 /// places, recovers lost tracking or begins a new sub-map. Not thread-safe.
 class FrontEnd {
  public:
-  FrontEnd(const camera::PinholeCamera& camera, const FrontEndConfig& config, KeyframeImages& images, std::uint64_t seed);
+  /// `loops`: how far tracking may stray; an old keyframe that this does not allow to be here is not taken instead of a new one.
+  FrontEnd(const FrontEndTools& tools, const FrontEndConfig& config, const LoopConsistencyConfig& loops, std::uint64_t seed);
 
   void add(const camera::RgbdFrame& frame);
   /// Every frame that was added, each on a node; if none could be followed, all are lost and hang on the first. The front end is
@@ -108,6 +120,9 @@ class FrontEnd {
  private:
   struct Current;
   bool startSubmap(const Current& current);
+  void bridgeTo(int node);
+  void carryOn(const Current& current);
+  [[nodiscard]] bool wheelsContradict(const Eigen::Isometry3d& T_world_camera) const;
   [[nodiscard]] Eigen::Isometry3d predict(const Current& current) const;
   [[nodiscard]] FollowResult follow(const Current& current, const Eigen::Isometry3d& T_world_camera,
                                     const std::vector<int>& landmarks) const;
@@ -120,25 +135,29 @@ class FrontEnd {
   [[nodiscard]] std::optional<Revisit> verify(Current& current, const PlaceIndex::Candidate& candidate);
   [[nodiscard]] std::vector<Revisit> findRevisits(Current& current);
   void record(const Current& current, const FollowResult& seen, TrackingStatus status);
-  int addNode(const Current& current, const Eigen::Isometry3d& T_world_camera, bool keyframe);
+  int addNode(const Current& current, const Eigen::Isometry3d& T_world_camera);
   void addEdge(int from, int to, EdgeKind kind, const FollowResult& seen, const Eigen::Isometry3d& T_world_to);
   void host(const Current& current, int node, const std::vector<Observation>& seen);
   [[nodiscard]] std::vector<int> landmarksAbout(int node, int rings, const Eigen::Isometry3d& T_world_camera) const;
   void adopt(const FollowResult& seen);
 
   camera::PinholeCamera camera_;
-  FrontEndConfig config_;
+  const WheelOdometry& odometry_;
   KeyframeImages& images_;
+  FrontEndConfig config_;
+  LoopConsistencyConfig loops_;
   std::uint64_t seed_;
   FrontEndResult result_;
   PlaceIndex places_;
-  std::vector<int> active_;  ///< landmarks looked for in the next frame
-  int reference_ = -1;       ///< node whose landmarks are seen most
-  int latest_ = -1;          ///< keyframe
+  std::vector<MotionPrior> bridges_;  ///< between sub-maps, as far as the wheels know
+  std::vector<int> active_;           ///< landmarks looked for in the next frame
+  int reference_ = -1;                ///< node whose landmarks are seen most
+  int latest_ = -1;                   ///< keyframe
   int seen_at_keyframe_ = 0;
   int lost_in_a_row_ = 0;
   Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d T_previous_current_ = Eigen::Isometry3d::Identity();  ///< the last motion
+  Eigen::Isometry3d T_previous_current_ = Eigen::Isometry3d::Identity();  ///< the expected motion
+  std::optional<WheelWay> wheels_ = WheelWay();                           ///< since the camera was last followed
   std::shared_ptr<const ImagePyramid> previous_;
 };
 

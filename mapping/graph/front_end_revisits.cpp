@@ -19,7 +19,10 @@ std::optional<FollowResult> FrontEnd::recover(Current& current) {
     }
   }
   for (const int node : nodes) {
-    if (auto revisit = verify(current, {node, 0})) {
+    auto revisit = verify(current, {node, 0});
+    if (revisit && wheelsContradict(revisit->seen.pose.T_world_camera)) {
+      result_.loop_attempts.back().verdict = LoopCheck::kWheelsDisagree;
+    } else if (revisit) {
       ++result_.relocalisations;
       adopt(revisit->seen);
       active_ = landmarksAbout(node, config_.neighbourhood, T_world_camera_);

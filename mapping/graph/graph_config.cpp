@@ -33,6 +33,7 @@ std::vector<std::string> LoopConsistencyConfig::validate() const {
       .greater("loop_sigma_m", loop_sigma_m, 0.0)
       .greater("loop_sigma_rad", loop_sigma_rad, 0.0)
       .greater("gate_sigmas", gate_sigmas, 0.0)
+      .greater("look_alike_sigmas", look_alike_sigmas, 0.0)
       .messages();
 }
 

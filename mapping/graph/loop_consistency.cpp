@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -14,35 +15,80 @@ namespace oikos::mapping {
 
 namespace {
 
-/// Odometry edges make a forest: distances in edges between two nodes of one tree.
+/// Odometry edges make a forest, and bridges join its trees: the way between two nodes of one tree, in edges.
 class OdometryForest {
  public:
-  explicit OdometryForest(const KeyframeGraph& graph) : parent_(graph.nodes.size(), -1), depth_(graph.nodes.size(), 0) {
+  OdometryForest(const KeyframeGraph& graph, const std::vector<MotionPrior>& bridges) : nodes_(graph.nodes.size()) {
     for (const Edge& e : graph.edges) {
       if (e.kind == EdgeKind::kOdometry) {
-        OIKOS_CHECK(e.from < e.to);  // a node is added after the one it hangs on
-        parent_[static_cast<std::size_t>(e.to)] = e.from;
-        depth_[static_cast<std::size_t>(e.to)] = depth_[static_cast<std::size_t>(e.from)] + 1;
+        hang(e.to, e.from, 1);
       }
+    }
+    for (const MotionPrior& bridge : bridges) {
+      hang(bridge.to, bridge.from, kEdgesOfABridge + static_cast<int>(bridge.T_from_to.translation().norm() * kEdgesPerBridged_m));
     }
   }
 
   [[nodiscard]] int distance(int a, int b) const {
-    int steps = 0;
+    int way = 0;
     while (a != b) {
-      int& deeper = depth(a) >= depth(b) ? a : b;
-      deeper = parent_[static_cast<std::size_t>(deeper)];
-      OIKOS_CHECK(deeper >= 0);
-      ++steps;
+      int& later = a > b ? a : b;  // a node hangs on an earlier one
+      const Hanging& node = nodes_[static_cast<std::size_t>(later)];
+      OIKOS_CHECK(node.parent >= 0);
+      way += node.edges;
+      later = node.parent;
     }
-    return steps;
+    return way;
   }
 
  private:
-  [[nodiscard]] int depth(int node) const { return depth_[static_cast<std::size_t>(node)]; }
-  std::vector<int> parent_;
-  std::vector<int> depth_;
+  // Wheels are worth less than tracking: a bridge strays like so many edges.
+  static constexpr int kEdgesOfABridge = 4;
+  static constexpr int kEdgesPerBridged_m = 4;
+  struct Hanging {
+    int parent = -1;
+    int edges = 0;
+  };
+  void hang(int node, int on, int edges) {
+    OIKOS_CHECK(on < node);
+    nodes_[static_cast<std::size_t>(node)] = {on, edges};
+  }
+  std::vector<Hanging> nodes_;
 };
+
+/// The wheels' motion to the first node of each sub-map.
+std::vector<MotionPrior> bridgesOf(const KeyframeGraph& graph, const std::vector<MotionPrior>& wheels) {
+  std::vector<char> hangs(graph.nodes.size(), 0);
+  for (const Edge& edge : graph.edges) {
+    if (edge.kind == EdgeKind::kOdometry) {
+      hangs[static_cast<std::size_t>(edge.to)] = 1;
+    }
+  }
+  std::vector<MotionPrior> bridges;
+  std::copy_if(wheels.begin(), wheels.end(), std::back_inserter(bridges),
+               [&](const MotionPrior& wheel) { return hangs[static_cast<std::size_t>(wheel.to)] == 0; });
+  return bridges;
+}
+
+/// The graph's nodes as far as their place goes, and the odometry between them; sub-maps are in one world where there is a bridge.
+KeyframeGraph joinedBy(const std::vector<MotionPrior>& bridges, const KeyframeGraph& graph) {
+  KeyframeGraph places;
+  for (const Node& node : graph.nodes) {
+    Node& place = places.nodes.emplace_back();
+    place.submap = node.submap;
+    place.T_world_camera = node.T_world_camera;
+  }
+  for (const Edge& edge : graph.edges) {
+    if (edge.kind == EdgeKind::kOdometry) {
+      Edge& way = places.edges.emplace_back();
+      way.from = edge.from;
+      way.to = edge.to;
+      way.kind = edge.kind;
+    }
+  }
+  joinSubmaps(places, std::vector<char>(places.edges.size(), 0), bridges);
+  return places;
+}
 
 /// A loop's claim, from the sub-map with the lower number to the other, whichever way it was found.
 struct Claim {
@@ -53,16 +99,21 @@ struct Claim {
 
 class Judge {
  public:
-  Judge(const KeyframeGraph& graph, const LoopConsistencyConfig& config) : graph_(graph), config_(config), forest_(graph) {}
+  Judge(const KeyframeGraph& graph, const LoopConsistencyConfig& config, const std::vector<MotionPrior>& bridges = {})
+      : graph_(graph), config_(config), forest_(graph, bridges) {}
 
   /// Does the way a.from → a.to → (odometry) → b.to → b.from → (odometry) → a.from come back to where it began?
   [[nodiscard]] bool consistent(const Claim& a, const Claim& b) const {
     const Eigen::Isometry3d round = a.T_from_to * between(a.to, b.to) * b.T_from_to.inverse() * between(b.from, a.from);
-    return closes(round, forest_.distance(a.to, b.to) + forest_.distance(a.from, b.from), 2);
+    return sigmasOpen(round, forest_.distance(a.to, b.to) + forest_.distance(a.from, b.from), 2) < config_.gate_sigmas;
   }
 
   [[nodiscard]] bool agreesWithOdometry(const Edge& a) const {
-    return submap(a.from) == submap(a.to) && closes(a.T_from_to * between(a.to, a.from), forest_.distance(a.from, a.to), 1);
+    return submap(a.from) == submap(a.to) && strayedBy(a) < config_.gate_sigmas;
+  }
+
+  [[nodiscard]] bool leadsToLookAlike(const Edge& a) const {
+    return submap(a.from) == submap(a.to) && strayedBy(a) > config_.look_alike_sigmas;
   }
 
   [[nodiscard]] Claim claimOf(const Edge& e) const {
@@ -77,14 +128,19 @@ class Judge {
            graph_.nodes[static_cast<std::size_t>(to)].T_world_camera;
   }
 
-  [[nodiscard]] bool closes(const Eigen::Isometry3d& round, int odometry_edges, int loops) const {
+  [[nodiscard]] double strayedBy(const Edge& a) const {
+    return sigmasOpen(a.T_from_to * between(a.to, a.from), forest_.distance(a.from, a.to), 1);
+  }
+
+  /// How far a way that should lead back to its beginning does not, in standard deviations.
+  [[nodiscard]] double sigmasOpen(const Eigen::Isometry3d& round, int odometry_edges, int loops) const {
     const double turn_rad = Eigen::AngleAxisd(round.linear()).angle();
     const double sigma_rad = std::hypot(config_.drift_rad_per_edge * std::sqrt(odometry_edges), config_.loop_sigma_rad * std::sqrt(loops));
     // A turn on the way moves what lies beyond it: about half the way's edges, at a third of a metre each.
     const double lever_m = 0.15 * odometry_edges;
     const double sigma_m =
         std::hypot(config_.drift_m_per_edge * std::sqrt(odometry_edges), config_.loop_sigma_m * std::sqrt(loops), sigma_rad * lever_m);
-    return turn_rad < config_.gate_sigmas * sigma_rad && round.translation().norm() < config_.gate_sigmas * sigma_m;
+    return std::max(turn_rad / sigma_rad, round.translation().norm() / sigma_m);
   }
 
   const KeyframeGraph& graph_;
@@ -126,15 +182,27 @@ std::vector<std::size_t> largestClique(const std::vector<std::vector<char>>& con
 
 }  // namespace
 
-std::vector<char> consistentEdges(const KeyframeGraph& graph, const LoopConsistencyConfig& config, int min_lone_inliers) {
+bool driftAllows(const KeyframeGraph& graph, const Edge& loop, const std::vector<MotionPrior>& wheels,
+                 const LoopConsistencyConfig& config) {
+  const std::vector<MotionPrior> bridges = bridgesOf(graph, wheels);
+  const KeyframeGraph places = joinedBy(bridges, graph);
+  const Judge judge(places, config, bridges);
+  return judge.submap(loop.from) != judge.submap(loop.to) || judge.agreesWithOdometry(loop);
+}
+
+std::vector<char> consistentEdges(const KeyframeGraph& graph, const std::vector<MotionPrior>& wheels, const LoopConsistencyConfig& config,
+                                  int min_lone_inliers) {
   const Judge judge(graph, config);
+  const std::vector<MotionPrior> bridges = bridgesOf(graph, wheels);
+  const KeyframeGraph places = joinedBy(bridges, graph);
+  const Judge judge_of_places(places, config, bridges);
   std::vector<char> believed(graph.edges.size(), 0);
   std::map<std::pair<int, int>, std::vector<std::size_t>> groups;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const Edge& edge = graph.edges[e];
     if (edge.kind == EdgeKind::kOdometry) {
       believed[e] = 1;
-    } else {
+    } else if (!judge_of_places.leadsToLookAlike(edge)) {
       groups[std::minmax({judge.submap(edge.from), judge.submap(edge.to)})].push_back(e);
     }
   }

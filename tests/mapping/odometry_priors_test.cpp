@@ -52,14 +52,14 @@ void expectSame(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double t
 
 TEST(OdometryPriors, NeedOdometryAndTheMount) {
   const KeyframeGraph graph = graphAt({0, kTenth_ns});
-  EXPECT_TRUE(OdometryPriors().betweenNodes(graph).empty());
-  EXPECT_TRUE(OdometryPriors(std::nullopt, mount()).betweenNodes(graph).empty());
-  EXPECT_TRUE(OdometryPriors(odometry(0, 10), std::nullopt).betweenNodes(graph).empty());
-  EXPECT_EQ(OdometryPriors(odometry(0, 10), mount()).betweenNodes(graph).size(), 1U);
+  EXPECT_TRUE(motionPriors(WheelOdometry(), graph).empty());
+  EXPECT_TRUE(motionPriors(WheelOdometry(std::nullopt, mount()), graph).empty());
+  EXPECT_TRUE(motionPriors(WheelOdometry(odometry(0, 10), std::nullopt), graph).empty());
+  EXPECT_EQ(motionPriors(WheelOdometry(odometry(0, 10), mount()), graph).size(), 1U);
 }
 
 TEST(OdometryPriors, AreTheCamerasMotionNotTheBases) {
-  const auto priors = OdometryPriors(odometry(0, 40), mount()).betweenNodes(graphAt({0, 10 * kTenth_ns, 30 * kTenth_ns}));
+  const auto priors = motionPriors(WheelOdometry(odometry(0, 40), mount()), graphAt({0, 10 * kTenth_ns, 30 * kTenth_ns}));
   ASSERT_EQ(priors.size(), 2U);
   EXPECT_EQ(priors[0].from, 0);
   EXPECT_EQ(priors[0].to, 1);
@@ -72,27 +72,27 @@ TEST(OdometryPriors, AreTheCamerasMotionNotTheBases) {
 /// Between two readings on the geodesic; 0.1 s of a 0.2 rad/s turn bends it by 0.1 mm from the true path.
 TEST(OdometryPriors, AreInterpolatedBetweenReadings) {
   const auto priors =
-      OdometryPriors(odometry(0, 40), mount()).betweenNodes(graphAt({5 * kTenth_ns + kTenth_ns / 4, 20 * kTenth_ns + kTenth_ns / 2}));
+      motionPriors(WheelOdometry(odometry(0, 40), mount()), graphAt({5 * kTenth_ns + kTenth_ns / 4, 20 * kTenth_ns + kTenth_ns / 2}));
   ASSERT_EQ(priors.size(), 1U);
   expectSame(priors[0].T_from_to, cameraMotion(0.525, 2.05), 0.002);
 }
 
 TEST(OdometryPriors, EndWhereTheOdometryEnds) {
-  const OdometryPriors priors(odometry(10, 20), mount());
-  EXPECT_EQ(priors.betweenNodes(graphAt({10 * kTenth_ns, 20 * kTenth_ns})).size(), 1U);
-  EXPECT_TRUE(priors.betweenNodes(graphAt({10 * kTenth_ns - 1, 15 * kTenth_ns})).empty());
-  EXPECT_TRUE(priors.betweenNodes(graphAt({15 * kTenth_ns, 20 * kTenth_ns + 1})).empty());
+  const WheelOdometry wheels(odometry(10, 20), mount());
+  EXPECT_EQ(motionPriors(wheels, graphAt({10 * kTenth_ns, 20 * kTenth_ns})).size(), 1U);
+  EXPECT_TRUE(motionPriors(wheels, graphAt({10 * kTenth_ns - 1, 15 * kTenth_ns})).empty());
+  EXPECT_TRUE(motionPriors(wheels, graphAt({15 * kTenth_ns, 20 * kTenth_ns + 1})).empty());
 }
 
 TEST(OdometryPriors, AreNotInterpolatedAcrossAGap) {
   recording::Trajectory with_gap = odometry(0, 10);
   const recording::Trajectory later = odometry(16, 30);  // 0.6 s later
   with_gap.insert(with_gap.end(), later.begin(), later.end());
-  const OdometryPriors priors(with_gap, mount());
-  EXPECT_TRUE(priors.betweenNodes(graphAt({5 * kTenth_ns, 13 * kTenth_ns})).empty());
-  EXPECT_EQ(priors.betweenNodes(graphAt({5 * kTenth_ns, 20 * kTenth_ns})).size(), 1U);  // across it both ends are known
+  const WheelOdometry wheels(with_gap, mount());
+  EXPECT_TRUE(motionPriors(wheels, graphAt({5 * kTenth_ns, 13 * kTenth_ns})).empty());
+  EXPECT_EQ(motionPriors(wheels, graphAt({5 * kTenth_ns, 20 * kTenth_ns})).size(), 1U);  // across it both ends are known
   EXPECT_EQ(
-      OdometryPriors({{{0, basePose(0.0)}, {5 * kTenth_ns, basePose(0.5)}}}, mount()).betweenNodes(graphAt({0, 2 * kTenth_ns})).size(), 1U);
+      motionPriors(WheelOdometry({{{0, basePose(0.0)}, {5 * kTenth_ns, basePose(0.5)}}}, mount()), graphAt({0, 2 * kTenth_ns})).size(), 1U);
 }
 
 std::vector<TrackedFrame> framesWith(const std::vector<TrackingStatus>& statuses) {
@@ -116,7 +116,7 @@ TEST(OdometryPriors, CarryLostFramesOnFromTheLastThatWasSeen) {
   for (const std::size_t seen : {0U, 1U, 5U}) {
     poses[seen] = T_world_odom * basePose(0.1 * static_cast<double>(seen)) * mount();
   }
-  const std::vector<char> carried = OdometryPriors(odometry(0, 10), mount()).carryLostFrames(frames, poses);
+  const std::vector<char> carried = carryLostFrames(WheelOdometry(odometry(0, 10), mount()), frames, poses);
   EXPECT_EQ(carried, (std::vector<char>{0, 0, 1, 1, 1, 0, 1}));
   for (std::size_t i = 0; i < frames.size(); ++i) {
     expectSame(poses[i], T_world_odom * basePose(0.1 * static_cast<double>(i)) * mount(), 1e-12);
@@ -127,12 +127,12 @@ TEST(OdometryPriors, CarryAllFramesOnFromTheFirstIfNothingWasEverSeen) {
   const auto frames = framesWith(std::vector<TrackingStatus>(6, TrackingStatus::kLost));
   const Eigen::Isometry3d T_world_odom = Eigen::Translation3d(3.0, 2.0, 1.0) * Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY());
   std::vector<Eigen::Isometry3d> poses(frames.size(), T_world_odom * basePose(0.0) * mount());
-  EXPECT_EQ(OdometryPriors(odometry(0, 10), mount()).carryLostFrames(frames, poses), std::vector<char>(6, 1));
+  EXPECT_EQ(carryLostFrames(WheelOdometry(odometry(0, 10), mount()), frames, poses), std::vector<char>(6, 1));
   for (std::size_t i = 0; i < frames.size(); ++i) {
     expectSame(poses[i], T_world_odom * basePose(0.1 * static_cast<double>(i)) * mount(), 1e-12);
   }
   std::vector<Eigen::Isometry3d> none;
-  EXPECT_TRUE(OdometryPriors(odometry(0, 10), mount()).carryLostFrames({}, none).empty());
+  EXPECT_TRUE(carryLostFrames(WheelOdometry(odometry(0, 10), mount()), {}, none).empty());
 }
 
 TEST(OdometryPriors, LeaveLostFramesAloneWhereTheyKnowNothing) {
@@ -140,11 +140,11 @@ TEST(OdometryPriors, LeaveLostFramesAloneWhereTheyKnowNothing) {
   const auto frames = framesWith({kLost, kStart, kLost, kLost});
   const std::vector<Eigen::Isometry3d> before(4, Eigen::Isometry3d(Eigen::Translation3d(1.0, 2.0, 3.0)));
   std::vector<Eigen::Isometry3d> poses = before;
-  const std::vector<char> carried = OdometryPriors(odometry(0, 2), mount()).carryLostFrames(frames, poses);
+  const std::vector<char> carried = carryLostFrames(WheelOdometry(odometry(0, 2), mount()), frames, poses);
   EXPECT_EQ(carried, (std::vector<char>{0, 0, 1, 0}));  // nothing before the first, no odometry at the last
   EXPECT_EQ(poses[0].matrix(), before[0].matrix());
   EXPECT_EQ(poses[3].matrix(), before[3].matrix());
-  EXPECT_EQ(OdometryPriors().carryLostFrames(frames, poses), std::vector<char>(4, 0));
+  EXPECT_EQ(carryLostFrames(WheelOdometry(), frames, poses), std::vector<char>(4, 0));
 }
 
 }  // namespace

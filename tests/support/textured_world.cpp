@@ -68,10 +68,20 @@ TexturedWorld::TexturedWorld(AnalyticRoom room, std::uint64_t seed) : room_(std:
   }
 }
 
+TexturedWorld TexturedWorld::repeating(AnalyticRoom room, double period_m, std::uint64_t seed) {
+  TexturedWorld world(std::move(room), seed);
+  world.period_m_ = period_m;
+  return world;
+}
+
 double TexturedWorld::grayAt(const Eigen::Vector3d& point_map) const {
+  Eigen::Vector3d point = point_map;
+  if (period_m_ > 0.0) {
+    point.x() -= period_m_ * std::floor(point.x() / period_m_);
+  }
   double sum = 0.0;
   for (const Octave& octave : octaves_) {
-    sum += octave.amplitude * latticeNoise(octave.per_m * point_map + octave.offset, octave.seed);
+    sum += octave.amplitude * latticeNoise(octave.per_m * point + octave.offset, octave.seed);
   }
   return 128.0 + 110.0 * std::tanh(1.5 * sum);
 }

@@ -23,6 +23,9 @@ class TexturedWorld {
   /// AnalyticRoom::furnished() with texture.
   static TexturedWorld furnished(std::uint64_t seed = 1) { return TexturedWorld(AnalyticRoom::furnished(), seed); }
 
+  /// The texture repeats itself every `period_m` along x, as wallpaper does: places that far apart look alike.
+  static TexturedWorld repeating(AnalyticRoom room, double period_m, std::uint64_t seed = 1);
+
   [[nodiscard]] const AnalyticRoom& room() const { return room_; }
   /// 18 to 238.
   [[nodiscard]] double grayAt(const Eigen::Vector3d& point_map) const;
@@ -43,6 +46,7 @@ class TexturedWorld {
   };
 
   AnalyticRoom room_;
+  double period_m_ = 0.0;  ///< 0: never
   std::array<Octave, 4> octaves_;
 };
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mapping/graph/frame_poses.h"
+#include "mapping/odometry_priors.h"
 #include "tests/mapping/graph/synthetic_drive.h"
 
 namespace oikos::mapping {
@@ -160,6 +161,65 @@ TEST(FrontEnd, IsRelocalisedWhereItWasBefore) {
   EXPECT_EQ(run.drive.frames[32].status, TrackingStatus::kRelocalised);
   EXPECT_LT(run.errors_m(posesFromReferences(run.drive.graph, run.drive.frames)).back(), 0.04);
   expectNoSilentJump(run, recording);
+}
+
+/// A hall 14 m long whose walls look the same every 2 m, and a camera that goes along it, looking at a wall.
+test::SyntheticRecording wallpaperDrive(double length_m, int frames, const std::set<int>& blank_frames = {}) {
+  const test::AnalyticRoom hall({Eigen::Vector3d(-7.0, -1.5, 0.0), Eigen::Vector3d(7.0, 1.5, 2.5), {150, 150, 150}}, {});
+  std::vector<Eigen::Isometry3d> drive;
+  for (int i = 0; i < frames; ++i) {
+    const Eigen::Vector3d eye(-3.0 + length_m * i / frames, 0.0, 1.2);
+    drive.push_back(test::lookAt(eye, eye + Eigen::Vector3d(0.0, 1.0, -0.3)));
+  }
+  test::SyntheticSensor sensor;
+  sensor.gray_sigma = 2.0;
+  sensor.depth_sigma_scale = 1.0;
+  sensor.blank_frames = blank_frames;
+  return test::SyntheticRecording(test::TexturedWorld::repeating(hall, 2.0), test::texturedCamera(), drive, sensor);
+}
+
+/// Seen from the camera itself: it stands for the robot.
+WheelOdometry wheelsOf(const test::SyntheticRecording& recording) {
+  return {recording.truth(), Eigen::Isometry3d::Identity()};
+}
+
+/// All loops agree with one another that the hall is 2 m long; tracking knows better.
+TEST(FrontEnd, PlacesThatLookAlikeAreNotTakenForOneAnother) {
+  const auto recording = wallpaperDrive(5.0, 100);
+  DriveRun run(recording);
+  EXPECT_EQ(run.drive.lost_frames, 0);
+  expectNoSilentJump(run, recording);
+  const BackEndResult result = run.optimise();
+  EXPECT_LT(run.worstError_m(result.T_world_frame), 0.05);
+}
+
+/// In the dark the camera goes on to where all looks as it did 2 m before.
+TEST(FrontEnd, WheelsTellAPlaceFromItsLookAlike) {
+  const auto recording = wallpaperDrive(3.0, 60, framesFromTo(15, 45));
+  const DriveRun unaware(recording);
+  EXPECT_GE(unaware.drive.relocalisations, 1);  // nothing else can tell
+
+  DriveRun aware(recording, {}, wheelsOf(recording));
+  EXPECT_EQ(aware.drive.relocalisations, 0);
+  EXPECT_GE(std::count_if(aware.drive.loop_attempts.begin(), aware.drive.loop_attempts.end(),
+                          [](const LoopAttempt& a) { return a.verdict == LoopCheck::kWheelsDisagree; }),
+            1);
+  const BackEndResult result = aware.optimise(motionPriors(wheelsOf(recording), aware.drive.graph));
+  EXPECT_EQ(result.submaps_left, 1);
+  const std::vector<double> errors = aware.errors_m(result.T_world_frame);
+  EXPECT_LT(errors.back(), 0.05);
+}
+
+/// Wheels that turn on the spot do not lead a seeing camera astray.
+TEST(FrontEnd, SlippingWheelsDoNotLoseTheCamera) {
+  const auto recording = wallpaperDrive(1.5, 40);
+  recording::Trajectory slipping = recording.truth();
+  for (std::size_t i = 15; i < slipping.size(); ++i) {  // 4 cm a frame for ten frames
+    slipping[i].T_map_camera.translation().x() += 0.04 * static_cast<double>(std::min<std::size_t>(i - 14, 10));
+  }
+  const DriveRun run(recording, {}, {slipping, Eigen::Isometry3d::Identity()});
+  EXPECT_EQ(run.drive.lost_frames, 0);
+  EXPECT_LT(run.errors_m(posesFromReferences(run.drive.graph, run.drive.frames)).back(), 0.04);
 }
 
 /// The camera is carried, unseeing, to a place it does not know; the drive returns to the first one later.

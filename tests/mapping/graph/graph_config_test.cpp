@@ -41,6 +41,7 @@ TEST(GraphConfig, NestedRulesCarryTheirTable) {
 
 TEST(GraphConfig, LoopConsistency) {
   test::checkConfigRules<LoopConsistencyConfig>({{"drift_m_per_edge", "0", "must be > 0"},
+                                                 {"look_alike_sigmas", "0", "must be > 0"},
                                                  {"drift_rad_per_edge", "0", "must be > 0"},
                                                  {"loop_sigma_m", "-1", "must be > 0"},
                                                  {"loop_sigma_rad", "nan", "must be > 0"},

@@ -34,7 +34,7 @@ Eigen::Isometry3d shiftBy(double x_m, double y_m, double z_m) {
 
 TEST(LoopConsistency, OdometryIsAlwaysBelieved) {
   const SimulatedDrive drive(1);
-  for (const char believed : consistentEdges(drive.graph, {})) {
+  for (const char believed : consistentEdges(drive.graph, {}, {})) {
     EXPECT_NE(believed, 0);
   }
 }
@@ -43,7 +43,7 @@ TEST(LoopConsistency, BelievesTrueLoopsInSpiteOfDrift) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     SimulatedDrive drive(seed);
     const auto loops = closeLaps(drive, 2);
-    EXPECT_EQ(countBelieved(consistentEdges(drive.graph, {}), loops), static_cast<int>(loops.size())) << "seed " << seed;
+    EXPECT_EQ(countBelieved(consistentEdges(drive.graph, {}, {}), loops), static_cast<int>(loops.size())) << "seed " << seed;
   }
 }
 
@@ -51,7 +51,7 @@ TEST(LoopConsistency, DropsASingleWrongLoop) {
   SimulatedDrive drive(2);
   const auto loops = closeLaps(drive, 4);
   const std::size_t wrong = drive.addWrongLoop(5, 25, Eigen::Isometry3d::Identity());  // opposite sides taken for one
-  const auto believed = consistentEdges(drive.graph, {});
+  const auto believed = consistentEdges(drive.graph, {}, {});
   EXPECT_EQ(believed[wrong], 0);
   EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
 }
@@ -61,7 +61,7 @@ TEST(LoopConsistency, DropsWrongLoopsThatAreThreeInTen) {
     SimulatedDrive drive(seed);
     const auto loops = closeLaps(drive, 2);                                                    // 20 true ones,
     const auto wrong = drive.addRandomWrongLoops(static_cast<int>(loops.size()) * 3 / 7 + 1);  // 9 of 29 wrong
-    const auto believed = consistentEdges(drive.graph, {});
+    const auto believed = consistentEdges(drive.graph, {}, {});
     EXPECT_EQ(countBelieved(believed, wrong), 0) << "seed " << seed;
     EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size())) << "seed " << seed;
   }
@@ -73,7 +73,7 @@ TEST(LoopConsistency, DropsAPairOfWrongLoopsThatAgreeWithEachOther) {
   const Eigen::Isometry3d T_5_25 = shiftBy(0.1, 0.0, 0.2);
   const Eigen::Isometry3d T_6_26 = drive.trueMotion(6, 5) * T_5_25 * drive.trueMotion(25, 26);
   const auto wrong = {drive.addWrongLoop(5, 25, T_5_25), drive.addWrongLoop(6, 26, T_6_26)};
-  const auto believed = consistentEdges(drive.graph, {});
+  const auto believed = consistentEdges(drive.graph, {}, {});
   EXPECT_EQ(countBelieved(believed, wrong), 0);
   EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
 }
@@ -86,7 +86,7 @@ TEST(LoopConsistency, DropsAPlaceTakenForItsTwin) {
   for (int n = 2; n < 9; ++n) {
     wrong.push_back(drive.addWrongLoop(n, n + 10, Eigen::Isometry3d::Identity()));
   }
-  const auto believed = consistentEdges(drive.graph, {});
+  const auto believed = consistentEdges(drive.graph, {}, {});
   EXPECT_EQ(countBelieved(believed, wrong), 0);
   EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
 }
@@ -94,13 +94,13 @@ TEST(LoopConsistency, DropsAPlaceTakenForItsTwin) {
 TEST(LoopConsistency, BelievesALoneLoopThatTheOdometryBears) {
   SimulatedDrive drive(5);
   const std::size_t loop = drive.addLoop(3, 3 + kLap);
-  EXPECT_NE(consistentEdges(drive.graph, {})[loop], 0);
+  EXPECT_NE(consistentEdges(drive.graph, {}, {})[loop], 0);
 }
 
 TEST(LoopConsistency, DoubtsALoneLoopThatTheOdometryContradicts) {
   SimulatedDrive drive(5);
   const std::size_t far = drive.addWrongLoop(5, 15, Eigen::Isometry3d::Identity());
-  EXPECT_EQ(consistentEdges(drive.graph, {})[far], 0);
+  EXPECT_EQ(consistentEdges(drive.graph, {}, {})[far], 0);
 }
 
 TEST(LoopConsistency, ALoneLoopMayJoinTwoSubmapsIfItIsStrong) {
@@ -108,9 +108,9 @@ TEST(LoopConsistency, ALoneLoopMayJoinTwoSubmapsIfItIsStrong) {
   drive.breakAt(kLap, shiftBy(7.0, 0.0, 0.0));
   const std::size_t loop = drive.addLoop(4, 4 + kLap);
   drive.graph.edges[loop].inliers = 40;
-  EXPECT_NE(consistentEdges(drive.graph, {}, 40)[loop], 0);
+  EXPECT_NE(consistentEdges(drive.graph, {}, {}, 40)[loop], 0);
   drive.graph.edges[loop].inliers = 39;
-  EXPECT_EQ(consistentEdges(drive.graph, {}, 40)[loop], 0);
+  EXPECT_EQ(consistentEdges(drive.graph, {}, {}, 40)[loop], 0);
 }
 
 TEST(LoopConsistency, LoopsBetweenSubmapsAreJudgedByEachOther) {
@@ -118,7 +118,7 @@ TEST(LoopConsistency, LoopsBetweenSubmapsAreJudgedByEachOther) {
   drive.breakAt(kLap, Eigen::Isometry3d(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ())));
   const auto loops = closeLaps(drive, 8);
   const std::size_t wrong = drive.addWrongLoop(5, kLap + 25, Eigen::Isometry3d::Identity());
-  const auto believed = consistentEdges(drive.graph, {});
+  const auto believed = consistentEdges(drive.graph, {}, {});
   EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
   EXPECT_EQ(believed[wrong], 0);
 }
@@ -130,16 +130,41 @@ TEST(LoopConsistency, LoopsBetweenSubmapsAreJudgedTogetherInBothDirections) {
   const auto loops = closeLaps(drive, 8);
   const std::size_t back = drive.addLoop(kLap + 12, 12);
   const std::size_t wrong = drive.addWrongLoop(kLap + 25, 5, Eigen::Isometry3d::Identity());
-  const auto believed = consistentEdges(drive.graph, {});
+  const auto believed = consistentEdges(drive.graph, {}, {});
   EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
   EXPECT_NE(believed[back], 0);
   EXPECT_EQ(believed[wrong], 0);
 }
 
+/// A hall that looks the same at both ends: many loops agree with one another that it is short, and no true one speaks against them.
+TEST(LoopConsistency, LoopsThatAgreeOnALookAlikeHaveNoSay) {
+  SimulatedDrive drive(10);
+  std::vector<std::size_t> wrong;
+  for (int n = 2; n < 9; ++n) {
+    wrong.push_back(drive.addWrongLoop(n, n + 20, drive.trueMotion(n, n + 5)));
+  }
+  EXPECT_EQ(countBelieved(consistentEdges(drive.graph, {}, {}), wrong), 0);
+}
+
+/// Tracking was lost on the way, and only the wheels know how far it was.
+TEST(LoopConsistency, WheelsContradictLoopsBetweenTheSubmapsThatTheyJoin) {
+  SimulatedDrive drive(11);
+  drive.breakAt(kLap, shiftBy(0.0, 9.0, 0.0));
+  std::vector<std::size_t> wrong;
+  for (int n = 2; n < 9; ++n) {
+    wrong.push_back(drive.addWrongLoop(n, kLap + n + 10, drive.trueMotion(n, n + 1)));
+  }
+  EXPECT_GE(countBelieved(consistentEdges(drive.graph, {}, {}), wrong), 6);  // nothing else can tell
+  const std::vector<MotionPrior> wheels = {{kLap - 1, kLap, drive.trueMotion(kLap - 1, kLap)}};
+  EXPECT_EQ(countBelieved(consistentEdges(drive.graph, wheels, {}), wrong), 0);
+  const auto loops = closeLaps(drive, 8);
+  EXPECT_EQ(countBelieved(consistentEdges(drive.graph, wheels, {}), loops), static_cast<int>(loops.size()));
+}
+
 TEST(LoopConsistency, AnOdometryEdgeBackwardsBreaksTheContract) {
   SimulatedDrive drive(9);
   std::swap(drive.graph.edges[3].from, drive.graph.edges[3].to);
-  EXPECT_THROW(static_cast<void>(consistentEdges(drive.graph, {})), base::ContractViolation);
+  EXPECT_THROW(static_cast<void>(consistentEdges(drive.graph, {}, {})), base::ContractViolation);
 }
 
 }  // namespace

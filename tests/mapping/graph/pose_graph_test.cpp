@@ -103,7 +103,7 @@ TEST(PoseGraph, WrongLoopsAreRejectedBeforeAndTheTrajectoryIsAsWithoutThem) {
   closeLaps(drive, 2);
   SimulatedDrive misled = drive;
   const auto wrong = misled.addRandomWrongLoops(10);
-  const auto believed = consistentEdges(misled.graph, {});
+  const auto believed = consistentEdges(misled.graph, {}, {});
   ASSERT_TRUE(optimisePoseGraph(drive.graph, drive.allBelieved(), {}, {}).usable);
   const PoseGraphResult result = optimisePoseGraph(misled.graph, believed, {}, {});
   ASSERT_TRUE(result.usable);

@@ -25,11 +25,11 @@ void append(std::vector<Eigen::Isometry3d>& drive, const std::vector<Eigen::Isom
   drive.insert(drive.end(), more.begin(), more.end());
 }
 
-DriveRun::DriveRun(const test::SyntheticRecording& recording, const FrontEndConfig& config)
+DriveRun::DriveRun(const test::SyntheticRecording& recording, const FrontEndConfig& config, const WheelOdometry& odometry)
     : recording_(recording),
       config_(config),
       images_([&recording](int frame) { return recording.read(frame, recording::Channels::kGray).gray; }, config.pyramid_levels, 48) {
-  FrontEnd front_end(recording.camera(), config_, images_, 0);
+  FrontEnd front_end({recording.camera(), odometry, images_}, config_, {}, 0);
   for (int i = 0; i < recording.frameCount(); ++i) {
     front_end.add(recording.read(i, recording::Channels::kGray));
   }

@@ -19,7 +19,7 @@ void append(std::vector<Eigen::Isometry3d>& drive, const std::vector<Eigen::Isom
 /// The front end over a whole recording, and the back end if it is asked for.
 class DriveRun {
  public:
-  explicit DriveRun(const test::SyntheticRecording& recording, const FrontEndConfig& config = {});
+  explicit DriveRun(const test::SyntheticRecording& recording, const FrontEndConfig& config = {}, const WheelOdometry& odometry = {});
   BackEndResult optimise(const std::vector<MotionPrior>& priors = {}, const BackEndConfig& config = {}, int threads = 1);
 
   /// Distance of each frame's pose from where it truly was, both seen from the first frame.
