@@ -12,7 +12,7 @@
 
 #include "mapping/graph/pose_block.h"
 #include "mapping/graph/projection_cost.h"
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 
 namespace oikos::mapping {
 
@@ -140,7 +140,7 @@ class Builder {
     constexpr double kGateSigmas = 4.0;
     const Eigen::Vector3d p = graph_.nodes[node].T_world_camera.inverse() *
                               (graph_.nodes[static_cast<std::size_t>(landmark.host)].T_world_camera * pointInHost(landmark, camera_));
-    const double sigma = inverseDepthSigma(depth_m);
+    const double sigma = camera::inverseDepthSigma(depth_m);
     if (p.z() > 0.05 && std::abs(1.0 / p.z() - 1.0 / depth_m) < kGateSigmas * sigma) {
       sighting.measured_inverse_depth = 1.0 / depth_m;
       sighting.inverse_sigma_inverse_depth = std::sqrt(config_.sighting_depth_weight) / sigma;

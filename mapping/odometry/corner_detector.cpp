@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 
 namespace oikos::mapping {
 
@@ -63,7 +63,7 @@ std::optional<InverseDepthPlane> fitPlane(const std::vector<Reading>& readings, 
   if (!plane.allFinite() || plane.z() < 1.0 / config.max_depth_m) {
     return std::nullopt;
   }
-  const double expected = inverseDepthSigma(1.0 / plane.z());
+  const double expected = camera::inverseDepthSigma(1.0 / plane.z());
   if (std::sqrt(variance) > config.max_plane_residual * expected) {
     return std::nullopt;
   }

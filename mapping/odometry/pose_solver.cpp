@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 
 namespace oikos::mapping {
 
@@ -45,7 +45,7 @@ Residual residualOf(const PointSighting& s, const camera::PinholeCamera& camera,
   r.whitened.head<2>() = (camera.project(p) - s.pixel) / s.pixel_sigma_px;
   r.J.topRows<2>() = by_point * by_pose / s.pixel_sigma_px;
   if (s.depth_m > 0.0) {
-    const double sigma = inverseDepthSigma(s.depth_m);
+    const double sigma = camera::inverseDepthSigma(s.depth_m);
     r.has_depth = true;
     r.whitened.z() = (z_inverse - 1.0 / s.depth_m) / sigma;
     r.J.row(2) = -z_inverse * z_inverse / sigma * by_pose.row(2);

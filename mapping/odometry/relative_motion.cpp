@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/geometry/rigid_alignment.h"
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 
 namespace oikos::mapping {
 
@@ -25,7 +25,7 @@ class Gate {
     if (p.z() < 0.05 || (camera_.project(p) - pixel_a).squaredNorm() > limit_px_ * limit_px_) {
       return false;
     }
-    const double sigma_m = std::hypot(depthSigma_m(point_a.z()), depthSigma_m(point_b.z()));
+    const double sigma_m = std::hypot(camera::depthSigma_m(point_a.z()), camera::depthSigma_m(point_b.z()));
     return std::abs(p.z() - point_a.z()) < depth_sigmas_ * sigma_m + 0.01;
   }
 

@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/se3.h"
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 
 namespace oikos::test {
 
@@ -58,7 +58,7 @@ void SyntheticRecording::addNoise(camera::RgbdFrame& frame) const {
         }
       }
       auto& depth_m = frame.depth_m.at<float>(v, u);
-      depth_m = static_cast<float>(depth_m + sensor_.depth_sigma_scale * mapping::depthSigma_m(depth_m) * normal(random));
+      depth_m = static_cast<float>(depth_m + sensor_.depth_sigma_scale * camera::depthSigma_m(depth_m) * normal(random));
     }
   }
 }

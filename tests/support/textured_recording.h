@@ -15,7 +15,7 @@ namespace oikos::test {
 struct SyntheticSensor {
   double rate_hz = 30.0;                                         ///< frame i has the stamp i / rate_hz
   double gray_sigma = 0.0;                                       ///< grey values, each pixel for itself
-  double depth_sigma_scale = 0.0;                                ///< times mapping::depthSigma_m, each pixel for itself; 0: exact depth
+  double depth_sigma_scale = 0.0;                                ///< times camera::depthSigma_m, each pixel for itself; 0: exact depth
   double max_depth_m = std::numeric_limits<double>::infinity();  ///< no reading beyond
   double readout_s = 0.0;           ///< rolling shutter: row y is exposed at stamp + (y / height - 0.5) * readout_s
   std::set<int> blank_frames = {};  ///< a covered lens: even grey, no depth

@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/se3.h"
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 #include "tests/support/textured_recording.h"
 
 namespace oikos::test {
@@ -104,7 +104,7 @@ TEST(SyntheticRecording, NoiseHasTheStatedDeviation) {
     for (int u = 0; u < clean.gray.cols; ++u) {
       const auto depth_m = static_cast<double>(clean.depth_m.at<float>(v, u));
       gray_squares += std::pow(noisy.gray.at<unsigned char>(v, u) - clean.gray.at<unsigned char>(v, u), 2);
-      depth_squares += std::pow((static_cast<double>(noisy.depth_m.at<float>(v, u)) - depth_m) / (2.0 * mapping::depthSigma_m(depth_m)), 2);
+      depth_squares += std::pow((static_cast<double>(noisy.depth_m.at<float>(v, u)) - depth_m) / (2.0 * camera::depthSigma_m(depth_m)), 2);
     }
   }
   const auto pixels = static_cast<double>(clean.gray.total());

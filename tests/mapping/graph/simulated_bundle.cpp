@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/se3.h"
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 #include "tests/support/analytic_room.h"
 
 namespace oikos::mapping {
@@ -43,7 +43,7 @@ void SimulatedBundle::hostLandmarks() {
       Landmark landmark;
       landmark.host = static_cast<int>(n);
       landmark.pixel = {u(random_), v(random_)};
-      landmark.sigma = inverseDepthSigma(depth_m);
+      landmark.sigma = camera::inverseDepthSigma(depth_m);
       landmark.measured_inverse_depth = 1.0 / depth_m + normal(config_.depth_sigmas * landmark.sigma);
       landmark.inverse_depth = landmark.measured_inverse_depth;
       true_inverse_depth.push_back(1.0 / depth_m);
@@ -76,7 +76,7 @@ void SimulatedBundle::observe() {
       }
       if (p.z() > 0.1 && camera.contains(camera.project(p), 5.0)) {
         const Eigen::Vector2d pixel = camera.project(p) + Eigen::Vector2d(normal(config_.pixel_sigma_px), normal(config_.pixel_sigma_px));
-        const double reading_m = p.z() + normal(config_.depth_sigmas * depthSigma_m(p.z()));
+        const double reading_m = p.z() + normal(config_.depth_sigmas * camera::depthSigma_m(p.z()));
         graph.nodes[n].observations.push_back({static_cast<int>(l), pixel.cast<float>(), Eigen::half(static_cast<float>(reading_m)), 0});
       }
     }

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 #include "tests/mapping/odometry/wave_texture.h"
 
 namespace oikos::mapping {
@@ -127,18 +127,18 @@ TEST(CornerDetector, ObliquePlaneHasItsInverseDepthGradient) {
     EXPECT_NEAR(landmark.inverse_depth, expected, 1e-6);  // depth is stored as float
     EXPECT_EQ(landmark.measured_inverse_depth, landmark.inverse_depth);
     EXPECT_LT((landmark.inverse_depth_gradient - gradient).norm(), 1e-7);
-    EXPECT_NEAR(landmark.sigma, 0.5 * inverseDepthSigma(1.0 / expected), 1e-9);
+    EXPECT_NEAR(landmark.sigma, 0.5 * camera::inverseDepthSigma(1.0 / expected), 1e-9);
   }
 }
 
 TEST(CornerDetector, NoisyPlaneStaysWithinItsSigma) {
   cv::RNG random(4);
   const auto landmarks =
-      detectCorners(frameWith(texture(), [&](int, int) { return 2.0 + random.gaussian(depthSigma_m(2.0)); }), {}, kConfig);
+      detectCorners(frameWith(texture(), [&](int, int) { return 2.0 + random.gaussian(camera::depthSigma_m(2.0)); }), {}, kConfig);
   ASSERT_GT(landmarks.size(), 300U);
   for (const Landmark& landmark : landmarks) {
     EXPECT_LT(std::abs(landmark.inverse_depth - 0.5), 4.0 * landmark.sigma);
-    EXPECT_LT(landmark.inverse_depth_gradient.norm(), 5.0 * inverseDepthSigma(2.0) / 11.0);
+    EXPECT_LT(landmark.inverse_depth_gradient.norm(), 5.0 * camera::inverseDepthSigma(2.0) / 11.0);
   }
 }
 
@@ -158,7 +158,7 @@ TEST(CornerDetector, AtAnEdgeTheNearerSideIsTaken) {
       ++at_edge;
       EXPECT_NEAR(landmark.inverse_depth, 1.0, 1e-6);
       EXPECT_EQ(landmark.inverse_depth_gradient, Eigen::Vector2d::Zero());
-      EXPECT_NEAR(landmark.sigma, inverseDepthSigma(1.0), 1e-9);  // twice that of a surface
+      EXPECT_NEAR(landmark.sigma, camera::inverseDepthSigma(1.0), 1e-9);  // twice that of a surface
     } else if (beyond_px < -6.0 || beyond_px > 6.0) {
       EXPECT_NEAR(landmark.inverse_depth, beyond_px < 0.0 ? 1.0 : 0.5, 1e-6);
     } else {

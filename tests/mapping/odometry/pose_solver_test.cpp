@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 
 namespace oikos::mapping {
 namespace {
@@ -44,7 +44,7 @@ class PoseSolverTest : public ::testing::Test {
       const Eigen::Vector3d p = pointInView();
       const Eigen::Vector2d pixel = camera_.project(p) + noise.pixel_px * Eigen::Vector2d(normal(), normal());
       // Noise that is normal in inverse depth, with the deviation that the solver believes in.
-      const double inverse_depth = 1.0 / p.z() + noise.depth_sigmas * inverseDepthSigma(p.z()) * normal();
+      const double inverse_depth = 1.0 / p.z() + noise.depth_sigmas * camera::inverseDepthSigma(p.z()) * normal();
       all.push_back({T_map_camera_ * p, pixel, with_depth ? 1.0 / inverse_depth : kNan, 0.5});
     }
     return all;
@@ -102,7 +102,7 @@ TEST_F(PoseSolverTest, ConvergesQuadratically) {
 Eigen::Vector3d whitened(const PointSighting& s, const camera::PinholeCamera& camera, const Eigen::Isometry3d& T_map_camera) {
   const Eigen::Vector3d p = T_map_camera.inverse() * s.point_world;
   Eigen::Vector3d r;
-  r << (camera.project(p) - s.pixel) / s.pixel_sigma_px, (1.0 / p.z() - 1.0 / s.depth_m) / inverseDepthSigma(s.depth_m);
+  r << (camera.project(p) - s.pixel) / s.pixel_sigma_px, (1.0 / p.z() - 1.0 / s.depth_m) / camera::inverseDepthSigma(s.depth_m);
   return r;
 }
 

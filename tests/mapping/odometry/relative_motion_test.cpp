@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "mapping/odometry/depth_noise.h"
+#include "core/camera/depth_noise.h"
 
 namespace oikos::mapping {
 namespace {
@@ -200,7 +200,7 @@ TEST_F(RelativeMotionTest, CovarianceIsOfTheRightPerturbation) {
     for (std::size_t i = 0; i < noisy.a.pixel.size(); ++i) {
       noisy.a.pixel[i] += 0.9 * Eigen::Vector2d(normal(), normal());
       Eigen::Vector3d& p = noisy.a.point_camera[i];
-      p *= 1.0 / (p.z() * (1.0 / p.z() + inverseDepthSigma(p.z()) * normal()));
+      p *= 1.0 / (p.z() * (1.0 / p.z() + camera::inverseDepthSigma(p.z()) * normal()));
     }
     const RelativeMotion motion = estimate(noisy);
     ASSERT_EQ(motion.status, MotionStatus::kConverged);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace oikos::mapping {
+namespace oikos::camera {
 
 /// Standard deviation of one depth reading of a structured-light camera: a constant part plus disparity quantisation and
 /// noise that grow with the square of the distance (Khoshelham & Elberink, Sensors 2012, eq. 12: 1.425e-3 / m at z^2, used by
@@ -15,4 +15,4 @@ namespace oikos::mapping {
   return depthSigma_m(depth_m) / (depth_m * depth_m);
 }
 
-}  // namespace oikos::mapping
+}  // namespace oikos::camera

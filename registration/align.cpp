@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "registration/align.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/base/config_rules.h"
+#include "core/render/view.h"
+#include "registration/edge_pairs.h"
+
+namespace oikos::registration {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kLongestStep_m = 0.15;
+constexpr double kLongestStep_rad = 0.15;
+constexpr double kSmallStep = 2e-4;   ///< m, and rad
+constexpr double kTurnLever_m = 0.5;  ///< a radian counts as much as half a metre
+
+/// The loop, one level after the other.
+class Aligner {
+ public:
+  Aligner(Motion& motion, const AlignConfig& config) : motion_(motion), config_(config) {}
+
+  /// False: nothing to go on with.
+  bool runLevel(const Scan& scan, int iterations, double first_gate_m, double last_gate_m) {
+    min_observability_ = first_gate_m > last_gate_m ? 1.0 : config_.min_observability;  // far off, a hint is worth following
+    const render::CameraRays rays(scan.camera);
+    edges_.emplace(scan);
+    settled_ = false;
+    for (int i = 0; i < iterations && !(settled_ && i > gateSteps(first_gate_m, last_gate_m)); ++i) {
+      const double shrink = std::min(1.0, static_cast<double>(i) / std::max(1, gateSteps(first_gate_m, last_gate_m)));
+      gate_m_ = first_gate_m * std::pow(last_gate_m / first_gate_m, shrink);
+      look(scan, rays);
+      if (static_cast<int>(pairing_.pairs.size()) < std::max(config_.min_inliers / 4, 6)) {
+        return false;
+      }
+      takeStep();
+      ++iterations_;
+    }
+    return true;
+  }
+
+  void look(const Scan& scan, const render::CameraRays& rays) {
+    render::ViewConfig view_config;
+    view_config.with_normals = true;
+    view_config.with_parts = true;
+    view_config.threads = config_.threads;
+    const Eigen::Isometry3d T_map_camera = motion_.T_map_camera();
+    const render::View view = render::renderView(motion_.scene(), rays, {T_map_camera, {}}, view_config);
+    const PairRules rules{gate_m_, std::cos(config_.max_normal_deg * kDegree)};
+    pairing_ = config_.association == Association::kProjective ? projectivePairs(view, scan, T_map_camera, rules)
+                                                               : nearestPairs(view, scan, T_map_camera, rules);
+    if (config_.has_edges) {
+      appendEdgePairs(view, scan, *edges_, T_map_camera, gate_m_, pairing_.pairs);
+    }
+    equations_ = sumUp(pairing_.pairs, motion_, {config_.surface_sigma_m, config_.normal_sigma_deg * kDegree, gate_m_ / 3.0});
+    observability_ = observe(equations_);
+  }
+
+  void lookClosely(const Scan& scan) {
+    gate_m_ = config_.fine_gate_m;
+    min_observability_ = config_.min_observability;
+    edges_.emplace(scan);
+    look(scan, render::CameraRays(scan.camera));
+  }
+
+  [[nodiscard]] AlignResult result() const {
+    AlignResult result;
+    const PairCounts& counts = pairing_.counts;
+    const int readings = counts.model - counts.unread;
+    result.iterations = iterations_;
+    result.inliers = equations_.inliers;
+    result.overlap = equations_.inliers / std::max(1.0, static_cast<double>(readings - counts.occluded));
+    result.fit = equations_.inliers / std::max(1.0, static_cast<double>(readings));
+    result.rms_m = equations_.weight > 0.0 ? std::sqrt(equations_.squares_m / equations_.weight) : 0.0;
+    result.covariance = covariance();
+    if (readings < config_.min_inliers) {
+      result.status = AlignStatus::kNotInView;
+    } else if (equations_.inliers < config_.min_inliers || result.overlap < config_.min_overlap) {
+      result.status = AlignStatus::kTooLittleOverlap;
+    } else if (!isObserved(0)) {
+      result.status = AlignStatus::kDegenerate;
+      result.unobserved = unobserved();
+    } else {
+      result.status = settled_ ? AlignStatus::kConverged : AlignStatus::kIterationLimit;
+    }
+    return result;
+  }
+
+  void settle() { settled_ = true; }
+
+ private:
+  static int gateSteps(double first_gate_m, double last_gate_m) { return first_gate_m > last_gate_m ? 5 : 0; }
+
+  [[nodiscard]] bool isObserved(std::size_t direction) const { return observability_.ratio[direction] >= min_observability_; }
+
+  /// Along what is observed only (Zhang, Kaess & Singh, "On degeneracy of optimization-based state estimation problems", ICRA 2016).
+  void takeStep() {
+    Step step = Step::Zero(equations_.g.size());
+    for (std::size_t i = 0; i < observability_.ratio.size(); ++i) {
+      if (isObserved(i)) {
+        const auto v = observability_.directions.col(static_cast<Eigen::Index>(i));
+        step -= v * (v.dot(equations_.g) / observability_.ratio[i]);
+      }
+    }
+    const double length = lengthOf(step);
+    if (length > 1.0) {
+      step /= length;
+    }
+    motion_.apply(step);
+    settled_ = length * kLongestStep_m < kSmallStep;
+  }
+
+  /// In longest steps.
+  [[nodiscard]] double lengthOf(const Step& step) const {
+    double longest = 0.0;
+    for (Eigen::Index i = 0; i < step.size(); ++i) {
+      longest = std::max(longest, std::abs(step[i]) / (isTurn(i) ? kLongestStep_rad : kLongestStep_m));
+    }
+    return longest;
+  }
+
+  [[nodiscard]] bool isTurn(Eigen::Index i) const { return motion_.freedoms()[static_cast<std::size_t>(i)].is_turn; }
+
+  [[nodiscard]] StepMatrix covariance() const {
+    const Eigen::Index size = equations_.g.size();
+    StepMatrix inverse = StepMatrix::Zero(size, size);
+    StepMatrix unknown = StepMatrix::Zero(size, size);
+    for (std::size_t i = 0; i < observability_.ratio.size(); ++i) {
+      const auto v = observability_.directions.col(static_cast<Eigen::Index>(i));
+      if (isObserved(i)) {
+        inverse += v * v.transpose() / observability_.ratio[i];
+      } else {
+        unknown += v * v.transpose() / v.squaredNorm();
+      }
+    }
+    const double scale = equations_.weight > 0.0 ? std::max(1.0, equations_.squares / equations_.weight) : 1.0;
+    return scale * inverse + inverse * equations_.surfaces * inverse + unknown;
+  }
+
+  /// For each direction that is not observed the degree of freedom that most of it is.
+  [[nodiscard]] std::vector<std::string> unobserved() const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < observability_.ratio.size(); ++i) {
+      if (isObserved(i)) {
+        continue;
+      }
+      const auto v = observability_.directions.col(static_cast<Eigen::Index>(i));
+      Eigen::Index most = 0;
+      double most_share = 0.0;
+      for (Eigen::Index k = 0; k < v.size(); ++k) {
+        const double share = std::abs(v[k]) * (isTurn(k) ? kTurnLever_m : 1.0);
+        if (share > most_share) {
+          most_share = share;
+          most = k;
+        }
+      }
+      const std::string& name = motion_.freedoms()[static_cast<std::size_t>(most)].name;
+      if (std::find(names.begin(), names.end(), name) == names.end()) {
+        names.push_back(name);
+      }
+    }
+    return names;
+  }
+
+  Motion& motion_;
+  const AlignConfig& config_;
+  double gate_m_ = 0.0;
+  double min_observability_ = 0.0;
+  std::optional<ScanEdges> edges_;  ///< of the scan of this level
+  Pairing pairing_;
+  NormalEquations equations_;
+  Observability observability_;
+  int iterations_ = 0;
+  bool settled_ = false;
+};
+
+}  // namespace
+
+std::vector<std::string> AlignConfig::validate() const {
+  base::ConfigRules rules;
+  rules.atLeast("coarse_thinning", coarse_thinning, 1)
+      .atLeast("coarse_iterations", coarse_iterations, 0)
+      .atLeast("fine_iterations", fine_iterations, 1)
+      .greater("fine_gate_m", fine_gate_m, 0.0)
+      .atLeast("coarse_gate_m", coarse_gate_m, fine_gate_m);
+  rules.require(max_normal_deg > 0.0 && max_normal_deg <= 90.0, "max_normal_deg", max_normal_deg, "must be > 0 and <= 90");
+  return rules.atLeast("surface_sigma_m", surface_sigma_m, 0.0)
+      .greater("normal_sigma_deg", normal_sigma_deg, 0.0)
+      .greater("min_observability", min_observability, 1.0)
+      .atLeast("min_inliers", min_inliers, 6)
+      .between("min_overlap", min_overlap, 0.0, 1.0)
+      .atLeast("threads", threads, 1)
+      .messages();
+}
+
+AlignResult align(Motion& motion, const Scan& scan, const AlignConfig& config) {
+  const Eigen::Isometry3d T_map_before = motion.T_map_moving();
+  const Eigen::Vector3d pivot_moving = T_map_before.inverse() * motion.pivot_map();
+  const std::vector<double> before = motion.saved();
+  Aligner aligner(motion, config);
+  const bool found = config.coarse_iterations == 0 || aligner.runLevel(thinned(scan, config.coarse_thinning), config.coarse_iterations,
+                                                                       config.coarse_gate_m, config.fine_gate_m);
+  if (found) {
+    aligner.runLevel(scan, config.fine_iterations, config.fine_gate_m, config.fine_gate_m);
+  }
+  if (!found) {
+    motion.restore(before);
+  }
+  aligner.lookClosely(scan);
+  AlignResult result = aligner.result();
+  const Eigen::Isometry3d T_map_after = motion.T_map_moving();
+  result.moved_m = (T_map_after * pivot_moving - T_map_before * pivot_moving).norm();
+  result.moved_rad = Eigen::AngleAxisd(T_map_before.linear().transpose() * T_map_after.linear()).angle();
+  return result;
+}
+
+AlignResult judge(Motion& motion, const Scan& scan, const AlignConfig& config) {
+  Aligner aligner(motion, config);
+  aligner.lookClosely(scan);
+  aligner.settle();
+  return aligner.result();
+}
+
+}  // namespace oikos::registration

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "registration/pose_search.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/base/config_rules.h"
+#include "core/base/error.h"
+
+namespace oikos::registration {
+
+namespace {
+
+struct Hypothesis {
+  AlignResult result;
+  std::vector<double> state;
+  Eigen::Isometry3d T_map_moving = Eigen::Isometry3d::Identity();
+};
+
+bool isUsable(const AlignResult& result) {
+  return result.status != AlignStatus::kNotInView && result.status != AlignStatus::kTooLittleOverlap;
+}
+
+/// Steps from the middle to each start: turns, and shifts across the line of sight.
+std::vector<Step> startsAbout(const Motion& motion, const SearchConfig& config) {
+  const Eigen::Vector3d sight = motion.pivot_map() - motion.T_map_camera().translation();
+  const Eigen::Vector3d ahead = sight.norm() > 0.3 ? sight : Eigen::Vector3d(motion.T_map_camera().linear().col(2));
+  const Eigen::Vector2d across = Eigen::Vector2d(-ahead.y(), ahead.x()).normalized();
+  std::vector<Step> starts;
+  for (const double shift : {0.0, -0.6, 0.6}) {
+    for (const double turn : {0.0, -0.6, 0.6}) {
+      Step step = Step::Zero(motion.dimension());
+      step.head<2>() = shift * config.range_m * across;
+      step[2] = turn * config.range_deg * std::numbers::pi / 180.0;
+      starts.push_back(step);
+    }
+  }
+  return starts;
+}
+
+class Search {
+ public:
+  Search(Motion& motion, const Scan& scan, const SearchConfig& config) : motion_(motion), scan_(scan), config_(config) {}
+
+  AlignResult run() {
+    const std::vector<double> middle = motion_.saved();
+    T_map_middle_ = motion_.T_map_moving();
+    pivot_moving_ = T_map_middle_.inverse() * motion_.pivot_map();
+    const Hypothesis first = alignedFrom(middle, scan_, config_.align);
+    if (first.result.status == AlignStatus::kConverged && isWithinRange(first) && first.result.fit >= config_.good_fit) {
+      return first.result;
+    }
+    std::vector<Hypothesis> found = coarsely(middle);
+    std::stable_sort(found.begin(), found.end(), [](const Hypothesis& a, const Hypothesis& b) { return a.result.fit > b.result.fit; });
+    found.resize(std::min(found.size(), static_cast<std::size_t>(config_.best_starts)));
+    AlignConfig fine = config_.align;
+    fine.coarse_iterations = 0;
+    for (Hypothesis& hypothesis : found) {
+      hypothesis = alignedFrom(hypothesis.state, scan_, fine);
+    }
+    if (found.empty() || isWithinRange(first)) {
+      found.insert(found.begin(), first);
+    }
+    return theBest(found);
+  }
+
+ private:
+  Hypothesis alignedFrom(const std::vector<double>& state, const Scan& scan, const AlignConfig& config) {
+    motion_.restore(state);
+    Hypothesis hypothesis;
+    hypothesis.result = align(motion_, scan, config);
+    hypothesis.state = motion_.saved();
+    hypothesis.T_map_moving = motion_.T_map_moving();
+    return hypothesis;
+  }
+
+  std::vector<Hypothesis> coarsely(const std::vector<double>& middle) {
+    AlignConfig coarse = config_.align;
+    coarse.fine_iterations = 1;
+    const Scan thin = thinned(scan_, coarse.coarse_thinning);
+    coarse.min_inliers = std::max(6, coarse.min_inliers / (coarse.coarse_thinning * coarse.coarse_thinning));
+    coarse.coarse_thinning = 1;
+    motion_.restore(middle);
+    const std::vector<Step> starts = startsAbout(motion_, config_);
+    std::vector<Hypothesis> found;
+    for (const Step& start : starts) {
+      motion_.restore(middle);
+      motion_.apply(start);
+      const Hypothesis hypothesis = alignedFrom(motion_.saved(), thin, coarse);
+      if (isUsable(hypothesis.result) && isWithinRange(hypothesis)) {
+        found.push_back(hypothesis);
+      }
+    }
+    return found;
+  }
+
+  AlignResult theBest(const std::vector<Hypothesis>& found) {
+    const auto best = std::max_element(found.begin(), found.end(), [](const Hypothesis& a, const Hypothesis& b) {
+      return std::pair(isUsable(a.result), a.result.fit) < std::pair(isUsable(b.result), b.result.fit);
+    });
+    motion_.restore(best->state);
+    AlignResult result = best->result;
+    const bool rivalled = std::any_of(found.begin(), found.end(), [&](const Hypothesis& other) {
+      return isUsable(other.result) && other.result.fit > best->result.fit - config_.clear_lead && !isSame(other, *best);
+    });
+    if (rivalled && result.status == AlignStatus::kConverged) {
+      result.status = AlignStatus::kAmbiguous;
+    }
+    return result;
+  }
+
+  /// A piece that looks the same from another side must not be found turned round.
+  [[nodiscard]] bool isWithinRange(const Hypothesis& hypothesis) const {
+    constexpr double kBeyond = 1.7;  // the corner of the range, and a little
+    const double moved_m = (hypothesis.T_map_moving * pivot_moving_ - T_map_middle_ * pivot_moving_).norm();
+    const double turned_rad = Eigen::AngleAxisd(T_map_middle_.linear().transpose() * hypothesis.T_map_moving.linear()).angle();
+    return moved_m <= kBeyond * config_.range_m && turned_rad <= kBeyond * config_.range_deg * std::numbers::pi / 180.0;
+  }
+
+  [[nodiscard]] bool isSame(const Hypothesis& a, const Hypothesis& b) const {
+    const Eigen::Isometry3d T_a_b = a.T_map_moving.inverse() * b.T_map_moving;
+    return T_a_b.translation().norm() < config_.same_m &&
+           Eigen::AngleAxisd(T_a_b.linear()).angle() < config_.same_deg * std::numbers::pi / 180.0;
+  }
+
+  Motion& motion_;
+  const Scan& scan_;
+  const SearchConfig& config_;
+  Eigen::Isometry3d T_map_middle_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d pivot_moving_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace
+
+std::vector<std::string> SearchConfig::validate() const {
+  return base::ConfigRules()
+      .atLeast("range_m", range_m, 0.0)
+      .atLeast("range_deg", range_deg, 0.0)
+      .between("good_fit", good_fit, 0.0, 1.0)
+      .atLeast("best_starts", best_starts, 1)
+      .atLeast("same_m", same_m, 0.0)
+      .atLeast("same_deg", same_deg, 0.0)
+      .atLeast("clear_lead", clear_lead, 0.0)
+      .messages();
+}
+
+AlignResult searchPose(Motion& motion, const Scan& scan, const SearchConfig& config) {
+  OIKOS_CHECK(motion.dimension() >= 3 && motion.freedoms()[2].name == "yaw");
+  return Search(motion, scan, config).run();
+}
+
+}  // namespace oikos::registration

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "registration/align.h"
+
+namespace oikos::registration {
+
+struct SearchConfig {
+  AlignConfig align;
+  double range_m = 0.30;    ///< how far the pose may be from where it is thought to be, in each direction
+  double range_deg = 15.0;  ///< and how far turned
+  double good_fit = 0.85;   ///< an alignment from the middle that explains so much of the model needs no second start
+  int best_starts = 3;      ///< so many of the coarse alignments are refined
+  double same_m = 0.03;     ///< two results nearer than this, and than `same_deg`, are one
+  double same_deg = 3.0;
+  double clear_lead = 0.03;  ///< a fit that is better by less is no better: ambiguous
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("align", align);
+    visitor("range_m", range_m);
+    visitor("range_deg", range_deg);
+    visitor("good_fit", good_fit);
+    visitor("best_starts", best_starts);
+    visitor("same_m", same_m);
+    visitor("same_deg", same_deg);
+    visitor("clear_lead", clear_lead);
+  }
+  [[nodiscard]] std::vector<std::string> validate() const;
+};
+
+/// align() from several starts about where `motion` stands, coarsely, and the best of them finely. For planar motion: the starts are
+/// turned, and moved across the line of sight (along it one start reaches far enough). `motion` is left at the best.
+AlignResult searchPose(Motion& motion, const Scan& scan, const SearchConfig& config);
+
+}  // namespace oikos::registration
