@@ -99,14 +99,25 @@ class Aligner {
 
   [[nodiscard]] bool isObserved(std::size_t direction) const { return observability_.ratio[direction] >= min_observability_; }
 
-  /// Along what is observed only (Zhang, Kaess & Singh, "On degeneracy of optimization-based state estimation problems", ICRA 2016).
+  /// Along what is observed only (Zhang, Kaess & Singh, "On degeneracy of optimization-based state estimation problems", ICRA 2016): of
+  /// all steps that solve the observed part, the shortest.
   void takeStep() {
     Step step = Step::Zero(equations_.g.size());
+    Eigen::MatrixXd free(equations_.g.size(), 0);
+    const Eigen::VectorXd lever = levers();
     for (std::size_t i = 0; i < observability_.ratio.size(); ++i) {
+      const auto v = observability_.directions.col(static_cast<Eigen::Index>(i));
       if (isObserved(i)) {
-        const auto v = observability_.directions.col(static_cast<Eigen::Index>(i));
         step -= v * (v.dot(equations_.g) / observability_.ratio[i]);
+      } else {
+        free.conservativeResize(Eigen::NoChange, free.cols() + 1);
+        free.col(free.cols() - 1) = lever.asDiagonal() * v;
       }
+    }
+    if (free.cols() > 0) {
+      const Eigen::VectorXd scaled = lever.asDiagonal() * step;
+      const Eigen::VectorXd needless = free * free.colPivHouseholderQr().solve(scaled);
+      step -= lever.cwiseInverse().asDiagonal() * needless;
     }
     const double length = lengthOf(step);
     if (length > 1.0) {
@@ -114,6 +125,15 @@ class Aligner {
     }
     motion_.apply(step);
     settled_ = length * kLongestStep_m < kSmallStep;
+  }
+
+  /// What makes a turn as long as a way.
+  [[nodiscard]] Eigen::VectorXd levers() const {
+    Eigen::VectorXd lever(equations_.g.size());
+    for (Eigen::Index i = 0; i < lever.size(); ++i) {
+      lever[i] = isTurn(i) ? kTurnLever_m : 1.0;
+    }
+    return lever;
   }
 
   /// In longest steps.

@@ -19,8 +19,8 @@ struct AlignConfig {
   Association association = Association::kProjective;
   bool has_edges = true;            ///< outlines count beside surfaces
   int coarse_thinning = 2;          ///< the coarse steps see one scan point in so many rows and columns
-  int coarse_iterations = 12;       ///< at most
-  int fine_iterations = 12;         ///< at most
+  int coarse_iterations = 16;       ///< at most
+  int fine_iterations = 20;         ///< at most
   double coarse_gate_m = 0.30;      ///< distance from the model's plane beyond which nothing is paired, at first
   double fine_gate_m = 0.05;        ///< and in the end
   double max_normal_deg = 40.0;     ///< between the normals of a pair

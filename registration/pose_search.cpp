@@ -47,7 +47,8 @@ class Search {
     T_map_middle_ = motion_.T_map_moving();
     pivot_moving_ = T_map_middle_.inverse() * motion_.pivot_map();
     const Hypothesis first = alignedFrom(middle, scan_, config_.align);
-    if (first.result.status == AlignStatus::kConverged && isWithinRange(first) && first.result.fit >= config_.good_fit) {
+    const bool is_near = first.result.moved_m <= config_.near_m && first.result.moved_rad <= config_.near_deg * std::numbers::pi / 180.0;
+    if (first.result.status == AlignStatus::kConverged && is_near && first.result.fit >= config_.good_fit) {
       return first.result;
     }
     std::vector<Hypothesis> found = coarsely(middle);
@@ -137,6 +138,8 @@ std::vector<std::string> SearchConfig::validate() const {
       .atLeast("range_m", range_m, 0.0)
       .atLeast("range_deg", range_deg, 0.0)
       .between("good_fit", good_fit, 0.0, 1.0)
+      .atLeast("near_m", near_m, 0.0)
+      .atLeast("near_deg", near_deg, 0.0)
       .atLeast("best_starts", best_starts, 1)
       .atLeast("same_m", same_m, 0.0)
       .atLeast("same_deg", same_deg, 0.0)

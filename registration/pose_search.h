@@ -12,8 +12,10 @@ struct SearchConfig {
   AlignConfig align;
   double range_m = 0.30;    ///< how far the pose may be from where it is thought to be, in each direction
   double range_deg = 15.0;  ///< and how far turned
-  double good_fit = 0.85;   ///< an alignment from the middle that explains so much of the model needs no second start
-  int best_starts = 3;      ///< so many of the coarse alignments are refined
+  double good_fit = 0.85;   ///< an alignment from the middle that explains so much of the model needs no second start,
+  double near_m = 0.15;     ///< if it did not go farther than this
+  double near_deg = 8.0;    ///< nor turn more: farther off there might be a twin as near
+  int best_starts = 5;      ///< so many of the coarse alignments are refined
   double same_m = 0.03;     ///< two results nearer than this, and than `same_deg`, are one
   double same_deg = 3.0;
   double clear_lead = 0.03;  ///< a fit that is better by less is no better: ambiguous
@@ -24,6 +26,8 @@ struct SearchConfig {
     visitor("range_m", range_m);
     visitor("range_deg", range_deg);
     visitor("good_fit", good_fit);
+    visitor("near_m", near_m);
+    visitor("near_deg", near_deg);
     visitor("best_starts", best_starts);
     visitor("same_m", same_m);
     visitor("same_deg", same_deg);

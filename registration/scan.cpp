@@ -43,10 +43,10 @@ class NormalFitter {
     int samples = 0;
     for (int y = v - config_.normal_radius_px; y <= v + config_.normal_radius_px; y += stride) {
       for (int x = u - config_.normal_radius_px; x <= u + config_.normal_radius_px; x += stride) {
-        ++samples;
         if (x < 0 || y < 0 || x >= camera_.width || y >= camera_.height) {
           continue;
         }
+        ++samples;
         const float z = depth_m_.at<float>(y, x);
         if (std::abs(z - centre_m) < config_.max_step_share * centre_m) {  // false for NaN
           plane.add(x - u, y - v, 1.0 / z);

@@ -75,6 +75,29 @@ model::ArticulatedModel believed(const FurnitureKind& furniture) {
   return model::makeShape(furniture.kind, furniture.dimensions, furniture.kind);
 }
 
+render::View viewOf(const render::Scene& scene, const camera::PinholeCamera& camera, const Eigen::Isometry3d& T_map_camera) {
+  render::ViewConfig config;
+  config.with_normals = true;
+  config.with_parts = true;
+  config.with_surface = true;
+  return render::renderView(scene, render::CameraRays(camera), {T_map_camera, {}}, config);
+}
+
+cv::Mat sensed(const render::View& view, const camera::PinholeCamera& camera, camera::DepthSensorKind kind, std::uint64_t seed) {
+  camera::IdealView ideal;
+  ideal.depth_m = view.depth_m;
+  ideal.normal_camera = view.normal_camera;
+  ideal.gloss = view.gloss;
+  ideal.reflectivity = view.albedo;
+  camera::DepthSensorConfig sensor;
+  sensor.kind = kind;
+  const cv::Mat units = camera::senseDepth(ideal, camera, sensor, {.seed = seed});
+  cv::Mat depth_m;
+  units.convertTo(depth_m, CV_32FC1, 1.0 / sensor.units_per_m);
+  depth_m.setTo(std::numeric_limits<float>::quiet_NaN(), units == 0);
+  return depth_m;
+}
+
 cv::Mat recordDepth(const FurnitureScene& scene, const camera::PinholeCamera& camera) {
   render::Scene world;
   world.add(*scene.model, scene.T_map_model, scene.joint_values);
@@ -88,22 +111,7 @@ cv::Mat recordDepth(const FurnitureScene& scene, const camera::PinholeCamera& ca
     world.add(box(0.3F, 0.4F, 1.7F, {0.3F, 0.3F, 0.6F}), at(between.x(), between.y(), 0.85));
   }
   world.commit();
-  render::ViewConfig config;
-  config.with_normals = true;
-  config.with_surface = true;
-  const render::View view = render::renderView(world, render::CameraRays(camera), {scene.T_map_camera, {}}, config);
-  camera::IdealView ideal;
-  ideal.depth_m = view.depth_m;
-  ideal.normal_camera = view.normal_camera;
-  ideal.gloss = view.gloss;
-  ideal.reflectivity = view.albedo;
-  camera::DepthSensorConfig sensor;
-  sensor.kind = scene.sensor;
-  const cv::Mat units = camera::senseDepth(ideal, camera, sensor, {.seed = scene.noise_seed});
-  cv::Mat depth_m;
-  units.convertTo(depth_m, CV_32FC1, 1.0 / sensor.units_per_m);
-  depth_m.setTo(std::numeric_limits<float>::quiet_NaN(), units == 0);
-  return depth_m;
+  return sensed(viewOf(world, camera, scene.T_map_camera), camera, scene.sensor, scene.noise_seed);
 }
 
 Eigen::Isometry3d cameraBefore(const Eigen::Isometry3d& T_map_model, double distance_m, double off_axis_rad, double target_height_m) {

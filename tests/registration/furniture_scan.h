@@ -12,6 +12,7 @@
 #include "core/camera/sensor/depth_sensor.h"
 #include "core/model/articulated_model.h"
 #include "core/model/shapes/shape_text.h"
+#include "core/render/view.h"
 #include "registration/scan.h"
 
 namespace oikos::test {
@@ -42,6 +43,13 @@ struct FurnitureScene {
   camera::DepthSensorKind sensor = camera::DepthSensorKind::kKinect1;
   std::uint64_t noise_seed = 1;
 };
+
+/// With normals, parts and what a sensor asks of surfaces.
+[[nodiscard]] render::View viewOf(const render::Scene& scene, const camera::PinholeCamera& camera,
+                                  const Eigen::Isometry3d& T_map_camera = Eigen::Isometry3d::Identity());
+/// What a sensor makes of it: CV_32FC1, NaN = no reading.
+[[nodiscard]] cv::Mat sensed(const render::View& view, const camera::PinholeCamera& camera, camera::DepthSensorKind kind,
+                             std::uint64_t seed);
 
 /// The depth image that the sensor records, CV_32FC1, NaN = no reading.
 [[nodiscard]] cv::Mat recordDepth(const FurnitureScene& scene, const camera::PinholeCamera& camera);
