@@ -190,7 +190,7 @@ TEST(Api, AdmitsOnlyWhoMay) {
 }
 
 TEST(Api, WhereOthersMayAskReadingNeedsTheTokenToo) {
-  const ServedHome home({"0.0.0.0", "the-token", true});
+  const ServedHome home("papers", {"0.0.0.0", "the-token", true});
   expectFailure(home.get("/v1/home"), 401, "unauthorized", "Bearer");
   expectFailure(home.get("/metrics"), 401, "unauthorized", "Bearer");
   EXPECT_EQ(home.get("/healthz").status, 200);

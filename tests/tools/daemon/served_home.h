@@ -13,12 +13,13 @@
 
 namespace oikos::daemon {
 
-/// A copy of the papers' house that is served, without a socket. Its clock stands at 2024-05-17T12:00:00Z.
+/// A copy of one of the homes, the papers' house if none is named, that is served without a socket. Its clock stands at
+/// 2024-05-17T12:00:00Z.
 struct ServedHome {
   static constexpr std::int64_t kNow_ns = 1'715'947'200'000'000'000;
 
-  explicit ServedHome(AccessRules rules = {"127.0.0.1", "the-token", false}) {
-    std::filesystem::copy(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml", folder.path() / "home.xml");
+  explicit ServedHome(const std::string& home = "papers", AccessRules rules = {"127.0.0.1", "the-token", false}) {
+    std::filesystem::copy(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes" / home / "home.xml", folder.path() / "home.xml");
     service = std::make_unique<Service>(folder.path(),
                                         Service::Hooks{[] { return kNow_ns; },
                                                        [this](const std::string& line) {
