@@ -224,6 +224,13 @@ State stateFromJson(const Json& json, const std::string& where) {
   return state;
 }
 
+Pose mapPoseFromJson(const Json& json, const std::string& where) {
+  Reader reader(json, where);
+  const Pose pose = reader.pose("pose_map");
+  reader.refuseOthers();
+  return pose;
+}
+
 Event eventFromJson(const Json& json, const std::string& where) {
   Reader reader(json, where);
   Event event;

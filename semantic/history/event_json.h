@@ -20,5 +20,7 @@ namespace oikos::semantic {
 /// Throws Error{kInput} that names the key, what was found and what would be right; `where` is put in front. An unknown key is an error.
 [[nodiscard]] Event eventFromJson(const nlohmann::json& json, const std::string& where);
 [[nodiscard]] State stateFromJson(const nlohmann::json& json, const std::string& where);
+/// {"pose_map": [x, y, z, roll, pitch, yaw]}: where something was observed, whose place in the home is still to be found. Throws as above.
+[[nodiscard]] Pose mapPoseFromJson(const nlohmann::json& json, const std::string& where);
 
 }  // namespace oikos::semantic

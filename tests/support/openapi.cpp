@@ -73,15 +73,15 @@ class Check {
   using Rule = Faults (Check::*)(const Json& value, const Json& rule, const Json& schema, const std::string& path);
 
   Faults type(const Json& value, const Json& rule, const Json&, const std::string& path) {
-    static const std::map<std::string, bool (Json::*)() const noexcept> kTypes{{"object", &Json::is_object}, {"array", &Json::is_array},
-                                                                               {"string", &Json::is_string}, {"number", &Json::is_number},
-                                                                               {"boolean", &Json::is_boolean},
-                                                                               {"integer", &Json::is_number_integer}};
+    static const std::map<std::string, bool (Json::*)() const noexcept> kTypes{
+        {"object", &Json::is_object}, {"array", &Json::is_array},     {"string", &Json::is_string},
+        {"number", &Json::is_number}, {"boolean", &Json::is_boolean}, {"integer", &Json::is_number_integer}};
     return (value.*kTypes.at(rule))() ? Faults() : Faults{path + ": " + value.dump() + " is no " + rule.get<std::string>()};
   }
 
   Faults isOneOf(const Json& value, const Json& rule, const Json&, const std::string& path) {
-    return std::find(rule.begin(), rule.end(), value) != rule.end() ? Faults() : Faults{path + ": " + value.dump() + " is none of " + rule.dump()};
+    return std::find(rule.begin(), rule.end(), value) != rule.end() ? Faults()
+                                                                    : Faults{path + ": " + value.dump() + " is none of " + rule.dump()};
   }
 
   Faults format(const Json& value, const Json& rule, const Json&, const std::string& path) {
@@ -127,7 +127,8 @@ class Check {
       if (!value.is_object() || (!rule.contains(name) && schema.contains("additionalProperties"))) {
         continue;
       }
-      const Faults more = rule.contains(name) ? faultsOf(member, rule[name], path + "." + name) : Faults{path + "." + name + ": not described"};
+      const Faults more =
+          rule.contains(name) ? faultsOf(member, rule[name], path + "." + name) : Faults{path + "." + name + ": not described"};
       faults.insert(faults.end(), more.begin(), more.end());
     }
     return faults;

@@ -9,8 +9,9 @@
 
 namespace oikos::test {
 
-/// Knows of schemas what ours use: type, nullable, enum, format date-time, minimum, maximum, items, minItems, maxItems, properties, required,
-/// additionalProperties, oneOf, allOf and $ref within the file. Any other keyword that says what is allowed is a fault of the schema.
+/// Knows of schemas what ours use: type, nullable, enum, format date-time, minimum, maximum, items, minItems, maxItems, properties,
+/// required, additionalProperties, oneOf, allOf and $ref within the file. Any other keyword that says what is allowed is a fault of the
+/// schema.
 class OpenApi {
  public:
   /// Reads YAML. Throws what yaml-cpp throws.
@@ -20,8 +21,8 @@ class OpenApi {
   /// By its name under components/schemas. Throws if there is none.
   [[nodiscard]] const nlohmann::json& schema(const std::string& name) const;
 
-  /// Where the document differs from the schema, each with its path; none: nowhere. Stricter than OpenAPI: a member that the schema does not
-  /// describe is a fault, too.
+  /// Where the document differs from the schema, each with its path; none: nowhere. Stricter than OpenAPI: a member that the schema does
+  /// not describe is a fault, too.
   [[nodiscard]] std::vector<std::string> faultsOf(const nlohmann::json& value, const nlohmann::json& schema) const;
 
  private:

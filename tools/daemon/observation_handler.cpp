@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 
 #include "core/base/error.h"
@@ -6,6 +7,7 @@
 #include "semantic/history/event_json.h"
 #include "tools/daemon/handlers.h"
 #include "tools/daemon/json_response.h"
+#include "tools/daemon/observed_places.h"
 
 namespace oikos::daemon {
 
@@ -37,10 +39,21 @@ nlohmann::json parseBody(const std::string& body) {
   }
 }
 
-Event readEvent(nlohmann::json json, const std::string& where, std::int64_t now_ns) {
+/// Of a small object that was observed in `map` the placement, in place of that pose.
+void placeByMap(nlohmann::json& json, const std::string& where, const ObservedPlaces& places) {
+  const bool in_map = json.is_object() && json.contains("after") && json["after"].is_object() && json["after"].contains("pose_map");
+  if (!in_map || !json.contains("subject") || !json["subject"].is_string()) {
+    return;
+  }
+  const semantic::Pose T_map_object = semantic::mapPoseFromJson(json["after"], where + ": after");
+  json["after"] = semantic::toJson(semantic::State(places.get(json["subject"], T_map_object, where + ": after: pose_map")));
+}
+
+Event readEvent(nlohmann::json json, const std::string& where, std::int64_t now_ns, const ObservedPlaces& places) {
   if (json.is_object() && !json.contains("time")) {
     json["time"] = base::toRfc3339(now_ns);
   }
+  placeByMap(json, where, places);
   Event event = semantic::eventFromJson(json, where);
   if (std::find(kObservable.begin(), kObservable.end(), event.kind) == kObservable.end()) {
     throw base::Error(base::ErrorCode::kInput,
@@ -51,10 +64,10 @@ Event readEvent(nlohmann::json json, const std::string& where, std::int64_t now_
   return event;
 }
 
-std::vector<Event> readEvents(const nlohmann::json& json, std::int64_t now_ns) {
+std::vector<Event> readEvents(const nlohmann::json& json, std::int64_t now_ns, ObservedPlaces places) {
   std::vector<Event> events;
   if (!json.is_array()) {
-    events.push_back(readEvent(json, "event", now_ns));
+    events.push_back(readEvent(json, "event", now_ns, places));
     return events;
   }
   if (json.empty() || json.size() > kMostEvents) {
@@ -63,7 +76,8 @@ std::vector<Event> readEvents(const nlohmann::json& json, std::int64_t now_ns) {
                       "body");
   }
   for (std::size_t i = 0; i < json.size(); ++i) {
-    events.push_back(readEvent(json[i], "events[" + std::to_string(i) + "]", now_ns));
+    events.push_back(readEvent(json[i], "events[" + std::to_string(i) + "]", now_ns, places));
+    places.take(events.back());
   }
   return events;
 }
@@ -71,7 +85,9 @@ std::vector<Event> readEvents(const nlohmann::json& json, std::int64_t now_ns) {
 }  // namespace
 
 Response takeObservations(const Call& call) {
-  std::vector<Event> events = readEvents(parseBody(call.request.body), call.service.now_ns());
+  const std::shared_ptr<const HomeView> view = call.service.view();
+  std::vector<Event> events =
+      readEvents(parseBody(call.request.body), call.service.now_ns(), ObservedPlaces(call.service.snapshot(), view->index));
   const auto count = static_cast<std::int64_t>(events.size());
   std::int64_t last = 0;
   try {

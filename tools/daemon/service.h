@@ -60,6 +60,8 @@ class Service {
 
   /// Every event that was committed when the call began, if the home is indexed quickly; else at most as old as an index takes.
   [[nodiscard]] std::shared_ptr<const HomeView> view();
+  /// With every event that was committed when the call began, however long an index takes.
+  [[nodiscard]] std::shared_ptr<const semantic::HomeSnapshot> snapshot() const { return store_.snapshot(); }
   [[nodiscard]] const semantic::History& history() const { return store_.history(); }
   [[nodiscard]] semantic::Recollection& recollection() const { return store_.recollection(); }
   [[nodiscard]] std::int64_t now_ns() const { return hooks_.now_ns(); }
