@@ -17,6 +17,7 @@
 #include "core/base/rfc3339.h"
 #include "semantic/history/history.h"
 #include "semantic/history/home_state.h"
+#include "semantic/history/recollection.h"
 #include "semantic/query/answer.h"
 #include "tools/command.h"
 
@@ -78,10 +79,13 @@ ExitCode ask(const AskOptions& options, const Session& session) {
   const semantic::HomeIndex index(semantic::loadHome(options.home));
   const std::filesystem::path file = options.home / "history.sqlite";
   std::optional<semantic::History> history;
+  std::optional<semantic::Recollection> recollection;
   if (std::filesystem::exists(file)) {
     history.emplace(file, semantic::HistoryAccess::kRead);
+    recollection.emplace(*history);
   }
-  const semantic::Answer answer = semantic::answerQuestion({&index, history ? &*history : nullptr, now_ns, robot}, options.question);
+  const semantic::Answer answer = semantic::answerQuestion(
+      {&index, history ? &*history : nullptr, now_ns, robot, recollection ? &*recollection : nullptr}, options.question);
   if (session.options.json) {
     std::cout << semantic::toJson(answer, 2) << '\n';
   } else {
