@@ -3,6 +3,8 @@
 
 #include <sqlite3.h>
 
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "core/base/error.h"
@@ -13,9 +15,12 @@ namespace {
 
 constexpr int kBusy_ms = 10000;
 
+int primaryOf(int code) {
+  return code & 0xFF;
+}
+
 bool isDamaged(int code) {
-  const int primary = code & 0xFF;
-  return primary == SQLITE_NOTADB || primary == SQLITE_CORRUPT;
+  return primaryOf(code) == SQLITE_NOTADB || primaryOf(code) == SQLITE_CORRUPT;
 }
 
 }  // namespace
@@ -30,10 +35,26 @@ SqliteDatabase::SqliteDatabase(std::filesystem::path file, Mode mode) : file_(st
     return;
   }
   open(file_.string(), SQLITE_OPEN_READONLY);
-  // Where the folder may not be written, the log's index cannot be shared; then nobody else writes either.
-  if (sqlite3_exec(get(), "PRAGMA schema_version", nullptr, nullptr, nullptr) == SQLITE_CANTOPEN) {
-    open("file:" + file_.string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+  const int code = sqlite3_exec(get(), "PRAGMA schema_version", nullptr, nullptr, nullptr);
+  if (sqlite3_extended_errcode(get()) == SQLITE_READONLY_ROLLBACK) {
+    open(file_.string(), SQLITE_OPEN_READWRITE);  // what was cut off before it counted has to be undone first
+  } else if (primaryOf(code) == SQLITE_CANTOPEN || primaryOf(code) == SQLITE_READONLY) {
+    openWhereNothingCanBeWritten();
   }
+}
+
+/// The log's index cannot be shared there; but nobody else writes either.
+void SqliteDatabase::openWhereNothingCanBeWritten() {
+  const std::filesystem::path log = file_.string() + "-wal";
+  std::error_code none;
+  if (const auto size = std::filesystem::file_size(log, none); !none && size > 0) {
+    throw base::Error(
+        base::ErrorCode::kIo,
+        "what came last is still in this log, which cannot be taken in where nothing may be written: open it where that may be, "
+        "or copy both files there",
+        log.string());
+  }
+  open("file:" + file_.string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
 }
 
 void SqliteDatabase::open(const std::string& name, int flags) {
@@ -47,6 +68,9 @@ void SqliteDatabase::open(const std::string& name, int flags) {
 }
 
 void SqliteDatabase::fail(int code) const {
+  if (primaryOf(code) == SQLITE_READONLY) {
+    throw base::Error(base::ErrorCode::kIo, "may not be written: the file, its folder or its file system is read-only", file_.string());
+  }
   const std::string what = database_ ? sqlite3_errmsg(database_.get()) : sqlite3_errstr(code);
   throw base::Error(isDamaged(code) ? base::ErrorCode::kInput : base::ErrorCode::kIo, what, file_.string());
 }

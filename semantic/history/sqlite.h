@@ -15,7 +15,8 @@ struct sqlite3_stmt;
 namespace oikos::semantic {
 
 /// One connection. Throws Error{kIo} where the file cannot be read or written (no space, no permission, busy for 10 s), Error{kInput} where
-/// it is no database. Not thread-safe.
+/// it is no database. kRead works where nothing may be written, too, unless the last writer was killed and its log is still to be taken in;
+/// a database whose making was cut off is put in order first. Not thread-safe.
 class SqliteDatabase {
  public:
   enum class Mode { kRead, kWrite };
@@ -29,6 +30,7 @@ class SqliteDatabase {
 
  private:
   void open(const std::string& name, int flags);
+  void openWhereNothingCanBeWritten();
 
   struct Close {
     void operator()(sqlite3* database) const;
@@ -66,10 +68,14 @@ class SqliteStatement {
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
-/// Resets the statement when it goes, so that it can be used again whatever happened.
+/// A statement with its parameters, which is reset at the end so that it can be used again whatever happened.
 class SqliteUse {
  public:
-  explicit SqliteUse(SqliteStatement& statement) : statement_(statement) {}
+  template <class... Values>
+  explicit SqliteUse(SqliteStatement& statement, Values... values) : statement_(statement) {
+    int place = 0;
+    (statement.bind(++place, values), ...);
+  }
   ~SqliteUse() { statement_.reset(); }
   SqliteUse(const SqliteUse&) = delete;
   SqliteUse& operator=(const SqliteUse&) = delete;

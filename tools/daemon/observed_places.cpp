@@ -11,10 +11,11 @@ namespace oikos::daemon {
 semantic::Placement ObservedPlaces::get(const std::string& subject, const semantic::Pose& T_map_object, const std::string& where) const {
   const semantic::Thing* const thing = ids_.findById(subject);
   if (thing == nullptr || thing->kind != semantic::ThingKind::kSmallObject) {
-    throw base::Error(base::ErrorCode::kInput, "'" + subject.substr(0, 64) + "' is no small object of the home; only these are placed by it",
-                      where);
+    throw base::Error(base::ErrorCode::kInput,
+                      "'" + subject.substr(0, 64) + "' is no small object of the home; only these are placed by it", where);
   }
-  const auto placement = semantic::findPlacement(changed_ ? changed_->home() : home_->home, T_map_object.toIsometry(), thing->small_object->box_model);
+  const auto placement =
+      semantic::findPlacement(changed_ ? changed_->home() : home_->home, T_map_object.toIsometry(), thing->small_object->box_model);
   if (!placement) {
     throw base::Error(base::ErrorCode::kInput, "expected a pose in map that is at some furniture or in a room with an outline", where);
   }
