@@ -10,8 +10,8 @@
 
 namespace oikos::semantic {
 
-/// Of a row with the columns number, time_ns, recording, frame, subject, kind, before, after, confidence, evidence. Throws Error{kInput} for
-/// what this program does not know; `file` is named then.
+/// Of a row with the columns number, time_ns, recording, frame, subject, kind, before, after, confidence, evidence. Throws Error{kInput}
+/// for what this program does not know; `file` is named then.
 [[nodiscard]] Event eventOf(const SqliteStatement& row, const std::string& file);
 
 /// As the parameters of the same columns. The event's own number is left out of account.

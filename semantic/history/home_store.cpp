@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/read_file.h"
+#include "core/base/replace_file.h"
 #include "semantic/history/commit_queue.h"
 #include "semantic/history/event_json.h"
 #include "semantic/history/home_edits.h"
@@ -70,18 +70,16 @@ class HomeStore::Impl {
   }
 
   void checkpoint() {
+    constexpr int kTries = 5;
     const std::lock_guard file_lock(file_mutex_);
-    std::string content = base::readFile(file_);
-    takeEdits(content);
-    const Home home = snapshot()->home;
-    if (home.as_of == file_home_.as_of) {
-      return;
+    for (int i = 0; i < kTries; ++i) {
+      takeEdits(base::readFile(file_));
+      const Home home = snapshot()->home;
+      if (home.as_of == file_home_.as_of || write(home)) {
+        return;
+      }
     }
-    History::Checkpoint next{home.as_of, spliceVerified(content, file_home_, home, file_.string())};
-    history_.append({}, &next);  // first: a crash in between must not look like an edit
-    base::writeFileAtomically(file_, next.content);
-    known_content_ = std::move(next.content);
-    file_home_ = home;
+    throw base::Error(base::ErrorCode::kIo, "another program writes it at this very moment; it is left to that", file_.string());
   }
 
  private:
@@ -95,6 +93,7 @@ class HomeStore::Impl {
                                    [&](const History::Checkpoint& checkpoint) { return checkpoint.content == file.content; });
     if (same != checkpoints.end()) {
       file.home.as_of = same->as_of;  // in the file a person may have left anything
+      is_newest_checkpoint_ = same == checkpoints.begin();
       file_home_ = file.home;
       known_content_ = file.content;
     } else if (checkpoints.empty()) {
@@ -114,6 +113,24 @@ class HomeStore::Impl {
     const auto found =
         std::find_if(checkpoints.begin(), checkpoints.end(), [&](const auto& checkpoint) { return checkpoint.as_of == as_of; });
     return found == checkpoints.end() ? checkpoints.front() : *found;
+  }
+
+  /// False: the file is no longer as it was read.
+  bool write(const Home& home) {
+    if (!is_newest_checkpoint_) {  // one that never became home.xml would push it out of the history
+      const History::Checkpoint current{file_home_.as_of, known_content_};
+      history_.append({}, &current);
+    }
+    History::Checkpoint next{home.as_of, spliceVerified(known_content_, file_home_, home, file_.string())};
+    is_newest_checkpoint_ = false;
+    history_.append({}, &next);  // first: a crash in between must not look like an edit
+    if (!base::replaceFileIfUnchanged(file_, known_content_, next.content)) {
+      return false;
+    }
+    is_newest_checkpoint_ = true;
+    known_content_ = std::move(next.content);
+    file_home_ = home;
+    return true;
   }
 
   /// Whether there were any.
@@ -141,6 +158,7 @@ class HomeStore::Impl {
   void remember(HomeFile& file, const std::vector<Event>& edits) {
     const History::Checkpoint checkpoint{file.home.as_of, file.content};
     history_.append(edits, &checkpoint);
+    is_newest_checkpoint_ = true;
     file_home_ = std::move(file.home);
     known_content_ = std::move(file.content);
   }
@@ -220,7 +238,8 @@ class HomeStore::Impl {
 
   std::mutex file_mutex_;  // taken before state_mutex_; of home.xml and:
   std::string known_content_;
-  Home file_home_;  // what known_content_ reads
+  Home file_home_;                     // what known_content_ reads
+  bool is_newest_checkpoint_ = false;  // of the history
 
   std::mutex state_mutex_;  // of:
   HomeState state_;

@@ -48,7 +48,8 @@ class HomeStore {
   /// Reads home.xml again if it is not as it was last written or read: what was edited by hand becomes events. Whether there was anything.
   /// Throws Error{kInput} if it is not valid; nothing has changed then.
   bool reload();
-  /// Writes the state back into home.xml if it has changed; an edit by hand is taken up before. Readers and writers go on meanwhile.
+  /// Writes the state back into home.xml if it has changed; an edit by hand is taken up before, one that comes in the moment of the
+  /// renaming, too. Readers and writers go on meanwhile. Throws Error{kIo} where it cannot be written, or is edited all the time.
   void checkpoint();
 
  private:

@@ -16,74 +16,13 @@
 #include "semantic/history/home_state.h"
 #include "semantic/xml/home_reader.h"
 #include "semantic/xml/home_writer.h"
+#include "tests/semantic/history/home_store_fixture.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/random_home.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oikos::semantic {
 namespace {
-
-const std::filesystem::path kPapers = std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml";
-
-Event hinge(double degrees, std::int64_t time_ns, const std::string& subject = "fridge-hinge") {
-  Event event;
-  event.kind = EventKind::kJoint;
-  event.subject = subject;
-  event.time_ns = time_ns;
-  event.after = JointValue{JointType::kRevolute, degrees * kRadPerDeg};
-  return event;
-}
-
-Event moved(const std::string& subject, const State& pose, std::int64_t time_ns) {
-  Event event;
-  event.kind = EventKind::kMoved;
-  event.subject = subject;
-  event.time_ns = time_ns;
-  event.after = pose;
-  return event;
-}
-
-Event sighting(const std::string& parent, std::int64_t time_ns) {
-  Event event;
-  event.kind = EventKind::kSighted;
-  event.subject = "blue-cup";
-  event.time_ns = time_ns;
-  event.after = Placement{parent, Relation::kOn, {.position_m = {0.1, 0.1, 0.1}}};
-  event.confidence = 0.5;
-  return event;
-}
-
-bool sameButForAsOf(Home a, const Home& b) {
-  a.as_of = b.as_of;
-  return a == b;
-}
-
-class HomeStoreTest : public testing::Test {
- protected:
-  HomeStoreTest() { (void)folder_.write("home.xml", base::readFile(kPapers)); }
-
-  void open() {
-    store_.reset();
-    store_ = std::make_unique<HomeStore>(folder_.path(), [this] { return now_ns_; });
-  }
-  [[nodiscard]] Home home() const { return store_->snapshot()->home; }
-  [[nodiscard]] Home onDisk() const { return readHome(file_).home; }
-  [[nodiscard]] std::string text() const { return base::readFile(file_); }
-  [[nodiscard]] double openingDeg() const {
-    return std::get<JointValue>(HomeState(home()).findState("fridge-hinge").value()).value / kRadPerDeg;
-  }
-  void replaceInFile(const std::string& from, const std::string& to) {
-    std::string content = text();
-    const std::size_t at = content.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    (void)folder_.write("home.xml", content.replace(at, from.size(), to));
-  }
-
-  test::TemporaryFolder folder_;
-  std::filesystem::path file_ = folder_.path() / "home.xml";
-  std::int64_t now_ns_ = 1'000'000;
-  std::unique_ptr<HomeStore> store_;
-};
 
 TEST_F(HomeStoreTest, AnEventIsInTheSnapshotAndSurvivesWithoutACheckpoint) {
   open();
@@ -127,78 +66,6 @@ TEST_F(HomeStoreTest, OneWrongEventRefusesItsBatchOnly) {
   EXPECT_EQ(store_->history().lastNumber(), 0);
   EXPECT_EQ(openingDeg(), 0.0);
   EXPECT_EQ(store_->append({hinge(30, 5)}), 1);
-}
-
-TEST_F(HomeStoreTest, AnEditWhileNobodyLooksBecomesAnEvent) {
-  open();
-  (void)store_->append({hinge(30, 5)});
-  store_->checkpoint();
-  (void)store_->append({sighting("cupboard-body", 6)});
-  store_.reset();
-  replaceInFile("value_deg=\"30\"", "value_deg=\"45\"");
-  replaceInFile("name=\"bathroom\"", "name=\"bath\"");
-  open();
-  EXPECT_NEAR(openingDeg(), 45.0, 1e-9);
-  EXPECT_EQ(home().rooms[1].name, "bath");
-  EXPECT_EQ(std::get<Placement>(HomeState(home()).findState("blue-cup").value()).parent, "cupboard-body");
-  const std::vector<Event> edits = store_->history().eventsAfter(2, 10);
-  ASSERT_EQ(edits.size(), 2U);
-  EXPECT_EQ(edits[0].subject, "bathroom");
-  EXPECT_EQ(edits[1].kind, EventKind::kEdited);
-  EXPECT_EQ(edits[1].time_ns, now_ns_);
-  open();
-  EXPECT_EQ(store_->history().lastNumber(), 4);  // noticed once
-  store_->checkpoint();
-  EXPECT_TRUE(onDisk() == home());
-}
-
-TEST_F(HomeStoreTest, AnEditIsTakenUpByReloadAndACheckpointNeverWritesOverOne) {
-  open();
-  EXPECT_FALSE(store_->reload());
-  (void)store_->append({hinge(30, 5)});
-  replaceInFile("name=\"bathroom\"", "name=\"bath\"");
-  EXPECT_TRUE(store_->reload());
-  EXPECT_EQ(home().rooms[1].name, "bath");
-  EXPECT_NEAR(openingDeg(), 30.0, 1e-9);
-  EXPECT_EQ(store_->snapshot()->structure, 1);
-  replaceInFile("name=\"kitchen\"", "name=\"cuisine\"");
-  store_->checkpoint();
-  EXPECT_EQ(home().rooms[0].name, "cuisine");
-  EXPECT_TRUE(onDisk() == home());
-}
-
-TEST_F(HomeStoreTest, AnInvalidEditIsRefusedAndTheOldOneKept) {
-  open();
-  (void)store_->append({hinge(30, 5)});
-  const Home before = home();
-  replaceInFile("id=\"blue-cup\"", "id=\"red-cup\"");
-  const std::string edited = text();
-  try {
-    (void)store_->reload();
-    FAIL();
-  } catch (const base::Error& error) {
-    EXPECT_EQ(error.code(), base::ErrorCode::kInput);
-    EXPECT_NE(std::string(error.what()).find("used already"), std::string::npos);
-  }
-  EXPECT_THROW(store_->checkpoint(), base::Error);
-  EXPECT_TRUE(home() == before);
-  EXPECT_EQ(text(), edited);
-  EXPECT_EQ(store_->append({hinge(31, 6)}), 2);
-  store_.reset();
-  EXPECT_THROW(open(), base::Error);
-}
-
-TEST_F(HomeStoreTest, ACrashBetweenCheckpointAndFileIsNoEdit) {
-  open();
-  const std::string old_text = text();
-  (void)store_->append({hinge(30, 5)});
-  store_->checkpoint();
-  const Home before = home();
-  store_.reset();
-  (void)folder_.write("home.xml", old_text);  // as if the renaming had never reached the disk
-  open();
-  EXPECT_TRUE(sameButForAsOf(home(), before));
-  EXPECT_EQ(store_->history().lastNumber(), 1);
 }
 
 TEST_F(HomeStoreTest, OneKeeperAtATime) {

@@ -25,7 +25,8 @@ class ReadOnlyHistoryTest : public testing::Test {
     }
     GTEST_FLAG_SET(death_test_style, "fast");
     using std::filesystem::perms;
-    std::filesystem::permissions(folder_.path(), perms::owner_all | perms::group_read | perms::group_exec | perms::others_read | perms::others_exec);
+    std::filesystem::permissions(folder_.path(),
+                                 perms::owner_all | perms::group_read | perms::group_exec | perms::others_read | perms::others_exec);
   }
 
   static Event knob(std::int64_t time_ns) {
@@ -116,7 +117,8 @@ TEST_F(ReadOnlyHistoryTest, NeverPassesOverWhatAKilledWriterLeftInTheLog) {
     std::filesystem::copy(file_.string() + "-wal", copy.string() + "-wal");
   }
   file_ = copy;
-  EXPECT_EXIT(sayAsAnother([&] { return lastNumber(); }), testing::ExitedWithCode(0), "copy.sqlite-wal: what came last is still in this log");
+  EXPECT_EXIT(sayAsAnother([&] { return lastNumber(); }), testing::ExitedWithCode(0),
+              "copy.sqlite-wal: what came last is still in this log");
   EXPECT_EQ(lastNumber(), "last 1");
 }
 
