@@ -52,6 +52,15 @@ class PowerCutVfs::Disk {
   [[nodiscard]] bool isCut() const { return operations_ >= cut_after_; }
   [[nodiscard]] std::int64_t operations() const { return operations_; }
 
+  /// Whether the power is still there for one more operation.
+  bool operate() {
+    if (isCut()) {
+      return false;
+    }
+    ++operations_;
+    return true;
+  }
+
   void restore() {
     for (const auto& [path, content] : durable_) {
       std::filesystem::remove(path);
@@ -75,15 +84,6 @@ class PowerCutVfs::Disk {
   static Disk& diskOf(sqlite3_vfs* vfs) { return *static_cast<Disk*>(vfs->pAppData); }
   static File& fileOf(sqlite3_file* file) { return *reinterpret_cast<File*>(file); }
   static sqlite3_file* innerOf(sqlite3_file* file) { return fileOf(file).inner(); }
-
-  /// Whether the power is still there for one more operation.
-  bool operate() {
-    if (isCut()) {
-      return false;
-    }
-    ++operations_;
-    return true;
-  }
 
   void remember(const std::string& path) {
     if (!durable_.contains(path)) {
@@ -186,6 +186,10 @@ bool PowerCutVfs::isCut() const {
 
 std::int64_t PowerCutVfs::operations() const {
   return disk_->operations();
+}
+
+bool PowerCutVfs::operate() {
+  return disk_->operate();
 }
 
 void PowerCutVfs::restore() {

@@ -20,6 +20,8 @@ class PowerCutVfs {
 
   [[nodiscard]] bool isCut() const;
   [[nodiscard]] std::int64_t operations() const;
+  /// Counts an operation of somebody else on the same disk: whether the power is still there for it.
+  [[nodiscard]] bool operate();
   /// Writes what had been synced into the files. All connections must be closed.
   void restore();
 

@@ -14,7 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/posix_file.h"
 #include "core/base/read_file.h"
-#include "tests/support/rename_hook.h"
+#include "tests/support/file_calls.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oikos::base {

@@ -13,7 +13,7 @@
 #include "core/base/read_file.h"
 #include "semantic/history/home_store.h"
 #include "tests/semantic/history/home_store_fixture.h"
-#include "tests/support/rename_hook.h"
+#include "tests/support/file_calls.h"
 
 namespace oikos::semantic {
 namespace {
