@@ -91,6 +91,34 @@ std::optional<Things> AnswerContext::resolveThing() {
   return resolution_.things;
 }
 
+std::optional<Things> AnswerContext::resolveSome() {
+  std::optional<Things> things = resolveThing();
+  if (things && things->empty()) {
+    nothingFits();
+    return std::nullopt;
+  }
+  return things;
+}
+
+std::optional<Things> AnswerContext::takeThose(const std::function<bool(const Thing&)>& fits, const std::string& otherwise) {
+  std::optional<Things> things = resolveSome();
+  if (!things) {
+    return std::nullopt;
+  }
+  std::erase_if(*things, [&](const Thing* thing) { return !fits(*thing); });
+  if (things->empty()) {
+    nothingFits(otherwise);
+    return std::nullopt;
+  }
+  take(*things);
+  return things;
+}
+
+std::optional<Things> AnswerContext::takeOpenable() {
+  return takeThose([](const Thing& thing) { return isOpen(thing).has_value(); },
+                   "I know of no way to open the " + question_.thing.said + ".");
+}
+
 void AnswerContext::sayUnknown() {
   answer.status = AnswerStatus::kUnknownWord;
   answer.not_understood = resolution_.unknown;

@@ -2,6 +2,7 @@
 // What the kinds of answers share while one question is answered.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,6 +34,13 @@ class AnswerContext {
   [[nodiscard]] Resolution resolve(const ThingPhrase& phrase) const;
   /// That of the question's thing, with its unknown words said; nothing: the answer is complete.
   [[nodiscard]] std::optional<Things> resolveThing();
+  /// The same, but never none: then the answer says so, and is complete.
+  [[nodiscard]] std::optional<Things> resolveSome();
+  /// Those of them that fit, taken into the answer. Nothing: the answer is complete; where there are things that do not fit, it is
+  /// `otherwise`.
+  [[nodiscard]] std::optional<Things> takeThose(const std::function<bool(const Thing&)>& fits, const std::string& otherwise);
+  /// takeThose() of what can be opened.
+  [[nodiscard]] std::optional<Things> takeOpenable();
   /// The last resolution of the question's thing.
   [[nodiscard]] const Resolution& resolution() const { return resolution_; }
 

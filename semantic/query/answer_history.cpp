@@ -148,12 +148,9 @@ bool isAskedFor(const AnswerContext& ctx, const Event& event, const Thing* thing
 }  // namespace
 
 void answerLastSeen(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
+  const auto things = ctx.resolveSome();
   if (!things) {
     return;
-  }
-  if (things->empty()) {
-    return ctx.nothingFits();
   }
   std::vector<std::string> texts;
   Things seen;
@@ -174,12 +171,9 @@ void answerLastSeen(AnswerContext& ctx) {
 }
 
 void answerLastChange(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
-  if (!things) {
+  const auto things = ctx.resolveSome();
+  if (!things || !hasHistory(ctx)) {
     return;
-  }
-  if (things->empty() || !hasHistory(ctx)) {
-    return things->empty() ? ctx.nothingFits() : void();
   }
   EventTeller teller(ctx.index());
   std::vector<Event> events = eventsOf(*ctx.history(), *things);
@@ -234,12 +228,9 @@ void answerChanges(AnswerContext& ctx) {
 }
 
 void answerHistory(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
-  if (!things) {
+  const auto things = ctx.resolveSome();
+  if (!things || !hasHistory(ctx)) {
     return;
-  }
-  if (things->empty() || !hasHistory(ctx)) {
-    return things->empty() ? ctx.nothingFits() : void();
   }
   EventTeller teller(ctx.index());
   std::vector<Event> events = eventsOf(*ctx.history(), *things);

@@ -164,12 +164,9 @@ Thing thingAt(const AnswerContext& ctx, const Thing& thing, const SmallObject& s
 }  // namespace
 
 void answerStand(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
+  const auto things = ctx.resolveSome();
   if (!things) {
     return;
-  }
-  if (things->empty()) {
-    return ctx.nothingFits();
   }
   ctx.take(*things);
   Things with_place;
@@ -193,17 +190,11 @@ void answerStand(AnswerContext& ctx) {
 }
 
 void answerHowOpen(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
-  if (!things) {
+  const auto movable = ctx.takeOpenable();
+  if (!movable) {
     return;
   }
-  Things movable;
-  std::copy_if(things->begin(), things->end(), std::back_inserter(movable), [](const Thing* thing) { return isOpen(*thing).has_value(); });
-  if (movable.empty()) {
-    return ctx.nothingFits(things->empty() ? "" : "I know of no way to open the " + ctx.question().thing.said + ".");
-  }
-  ctx.take(movable);
-  for (const Thing* thing : movable) {
+  for (const Thing* thing : *movable) {
     ctx.answer.steps.push_back(goTo(describe(*thing, ctx.robot()), *thing));
     for (const Joint* joint : jointsOf(*thing)) {
       ctx.answer.steps.push_back(openStep(*thing->object, *joint));
@@ -213,12 +204,9 @@ void answerHowOpen(AnswerContext& ctx) {
 }
 
 void answerHowGrasp(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
+  const auto things = ctx.resolveSome();
   if (!things) {
     return;
-  }
-  if (things->empty()) {
-    return ctx.nothingFits();
   }
   ctx.take(*things);
   ctx.say(listOf(*things,
@@ -238,18 +226,11 @@ void answerHowGrasp(AnswerContext& ctx) {
 }
 
 void answerUse(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
-  if (!things) {
-    return;
+  const auto has_uses = [](const Thing& thing) { return thing.kind == ThingKind::kLargeObject && !thing.object->affordances.empty(); };
+  const auto usable = ctx.takeThose(has_uses, "I do not know what the " + ctx.question().thing.said + " can be used for.");
+  if (usable) {
+    sayUses(ctx, *usable->front());
   }
-  Things usable;
-  std::copy_if(things->begin(), things->end(), std::back_inserter(usable),
-               [](const Thing* thing) { return thing->kind == ThingKind::kLargeObject && !thing->object->affordances.empty(); });
-  if (usable.empty()) {
-    return ctx.nothingFits(things->empty() ? "" : "I do not know what the " + ctx.question().thing.said + " can be used for.");
-  }
-  ctx.take(usable);
-  sayUses(ctx, *usable.front());
 }
 
 void answerWhatFor(AnswerContext& ctx) {

@@ -56,23 +56,22 @@ std::optional<std::int64_t> openedWithin(const AnswerContext& ctx, const Thing& 
   return std::nullopt;
 }
 
-void answerIsOpen(AnswerContext& ctx, const Things& things) {
-  const bool open = ctx.question().state == "open";
-  Things movable;
-  std::copy_if(things.begin(), things.end(), std::back_inserter(movable), [](const Thing* thing) { return isOpen(*thing).has_value(); });
-  if (movable.empty()) {
-    return ctx.nothingFits("I know of no way to open the " + ctx.question().thing.said + ".");
+void answerIsOpen(AnswerContext& ctx) {
+  const auto movable = ctx.takeOpenable();
+  if (!movable) {
+    return;
   }
+  const bool open = ctx.question().state == "open";
   const auto fits = [&](const Thing* thing) { return *isOpen(*thing) == open; };
-  ctx.take(movable);
-  const auto so = static_cast<std::size_t>(std::count_if(movable.begin(), movable.end(), fits));
-  if (so == movable.size() || (so > 0 && ctx.question().any)) {
+  const auto so = static_cast<std::size_t>(std::count_if(movable->begin(), movable->end(), fits));
+  if (so == movable->size() || (so > 0 && ctx.question().any)) {
     ctx.answer.yes = true;
   } else if (so == 0 || ctx.question().all) {  // else: which one was meant cannot be told
     ctx.answer.yes = false;
   }
-  std::string sentence = listOf(movable, [&](const Thing& thing) { return stateSentence(ctx, thing); });
-  if (const auto opened_ns = open && ctx.answer.yes == false && movable.size() == 1 ? openedWithin(ctx, *movable.front()) : std::nullopt) {
+  std::string sentence = listOf(*movable, [&](const Thing& thing) { return stateSentence(ctx, thing); });
+  if (const auto opened_ns =
+          open && ctx.answer.yes == false && movable->size() == 1 ? openedWithin(ctx, *movable->front()) : std::nullopt) {
     ctx.answer.yes = true;
     sentence += " at the end, but it was open " + ctx.clock().text(*opened_ns);
   }
@@ -83,15 +82,12 @@ void answerIsOpen(AnswerContext& ctx, const Things& things) {
 }  // namespace
 
 void answerIsState(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
+  if (ctx.question().state == "open" || ctx.question().state == "closed") {
+    return answerIsOpen(ctx);
+  }
+  const auto things = ctx.resolveSome();
   if (!things) {
     return;
-  }
-  if (things->empty()) {
-    return ctx.nothingFits();
-  }
-  if (ctx.question().state == "open" || ctx.question().state == "closed") {
-    return answerIsOpen(ctx, *things);
   }
   Things settable;
   std::vector<std::string> texts;
@@ -153,17 +149,11 @@ void answerWhichState(AnswerContext& ctx) {
 }
 
 void answerHowFar(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
-  if (!things) {
+  const auto movable = ctx.takeOpenable();
+  if (!movable) {
     return;
   }
-  Things movable;
-  std::copy_if(things->begin(), things->end(), std::back_inserter(movable), [](const Thing* thing) { return isOpen(*thing).has_value(); });
-  if (movable.empty()) {
-    return ctx.nothingFits(things->empty() ? "" : "I know of no way to open the " + ctx.question().thing.said + ".");
-  }
-  ctx.take(movable);
-  ctx.say(listOf(movable, [&](const Thing& thing) { return stateSentence(ctx, thing); }) + ".");
+  ctx.say(listOf(*movable, [&](const Thing& thing) { return stateSentence(ctx, thing); }) + ".");
 }
 
 void answerSetting(AnswerContext& ctx) {

@@ -44,6 +44,23 @@ std::string placementText(const AnswerContext& ctx, const Placement& placement) 
   return std::string(base::toString(placement.relation)) + " the " + carrier.name();
 }
 
+/// Empty: it is not known.
+std::string propertyOf(const Thing& thing, const std::string& name) {
+  if (thing.kind == ThingKind::kSmallObject) {
+    const auto& properties = thing.small_object->properties;
+    const auto found = std::find_if(properties.begin(), properties.end(), [&](const Property& p) { return p.name == name; });
+    if (found != properties.end() && !found->value.empty()) {
+      return spaced(found->value);
+    }
+  }
+  if (name != "type" && name != "kind") {
+    return {};
+  }
+  return spaced(thing.kind == ThingKind::kSmallObject ? thing.small_object->type
+                : thing.object != nullptr             ? thing.object->type
+                                                      : thing.room->type);
+}
+
 /// Where the only found thing is likelier than where it was last; empty: nowhere.
 std::string likelierText(const AnswerContext& ctx) {
   const FoundThing& found = ctx.answer.found.front();
@@ -58,12 +75,9 @@ std::string likelierText(const AnswerContext& ctx) {
 }  // namespace
 
 void answerWhere(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
+  const auto things = ctx.resolveSome();
   if (!things) {
     return;
-  }
-  if (things->empty()) {
-    return ctx.nothingFits();
   }
   ctx.take(*things);
   if (things->size() > 1) {
@@ -78,27 +92,21 @@ void answerWhere(AnswerContext& ctx) {
 }
 
 void answerUsualPlace(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
-  if (!things) {
+  const auto has_place = [](const Thing& thing) {
+    return thing.kind == ThingKind::kSmallObject && !thing.small_object->default_places.empty();
+  };
+  const auto placed = ctx.takeThose(has_place, "I do not know where it belongs.");
+  if (!placed) {
     return;
   }
   std::vector<std::string> texts;
-  Things placed;
-  for (const Thing* thing : *things) {
-    if (thing->kind != ThingKind::kSmallObject || thing->small_object->default_places.empty()) {
-      continue;
-    }
+  for (const Thing* thing : *placed) {
     std::vector<std::string> places;
     for (const Placement& placement : thing->small_object->default_places) {
       places.push_back(placementText(ctx, placement));
     }
-    placed.push_back(thing);
     texts.push_back(theName(*thing) + " belongs " + joined(places, " or "));
   }
-  if (placed.empty()) {
-    return ctx.nothingFits(things->empty() ? "" : "I do not know where it belongs.");
-  }
-  ctx.take(placed);
   ctx.say(enumerated(texts) + ".");
 }
 
@@ -155,34 +163,16 @@ void answerIsThere(AnswerContext& ctx) {
 }
 
 void answerProperty(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
-  if (!things) {
+  const std::string& asked = ctx.question().property;
+  const auto known =
+      ctx.takeThose([&](const Thing& thing) { return !propertyOf(thing, asked).empty(); }, "I do not know its " + asked + ".");
+  if (!known) {
     return;
   }
-  const std::string& asked = ctx.question().property;
-  Things known;
   std::vector<std::string> texts;
-  for (const Thing* thing : *things) {
-    std::string value;
-    if (thing->kind == ThingKind::kSmallObject) {
-      const auto& properties = thing->small_object->properties;
-      const auto found = std::find_if(properties.begin(), properties.end(), [&](const Property& p) { return p.name == asked; });
-      value = found == properties.end() ? "" : spaced(found->value);
-    }
-    if (value.empty() && (asked == "type" || asked == "kind")) {
-      value = spaced(thing->kind == ThingKind::kSmallObject ? thing->small_object->type
-                     : thing->object != nullptr             ? thing->object->type
-                                                            : thing->room->type);
-    }
-    if (!value.empty()) {
-      known.push_back(thing);
-      texts.push_back(theName(*thing) + " is " + value);
-    }
+  for (const Thing* thing : *known) {
+    texts.push_back(theName(*thing) + " is " + propertyOf(*thing, asked));
   }
-  if (known.empty()) {
-    return ctx.nothingFits(things->empty() ? "" : "I do not know its " + asked + ".");
-  }
-  ctx.take(known);
   ctx.say(enumerated(texts) + ".");
 }
 

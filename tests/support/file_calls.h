@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens at the very moment in which a file is renamed or synced. A test that links this has rename(2), renameat2(2) and fsync(2) of its
-// own in front of the system's.
+// What happens at the very moment in which a file is renamed or synced. A test that links this has rename(2), renameat2(2) and fsync(2) of
+// its own in front of the system's.
 #pragma once
 
 #include <filesystem>
