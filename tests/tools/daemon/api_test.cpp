@@ -7,21 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/tools/daemon/expect_failure.h"
 #include "tests/tools/daemon/served_home.h"
 
 namespace oikos::daemon {
 namespace {
 
 using Json = nlohmann::json;
-
-void expectFailure(const Response& response, int status, const std::string& code, const std::string& part_of_message) {
-  EXPECT_EQ(response.status, status) << response.body;
-  EXPECT_EQ(response.content_type, "application/json");
-  const Json json = Json::parse(response.body);
-  EXPECT_EQ(json.size(), 2U) << response.body;
-  EXPECT_EQ(json["code"], code);
-  EXPECT_NE(json["message"].get<std::string>().find(part_of_message), std::string::npos) << response.body;
-}
 
 std::vector<std::string> idsOf(const Json& list) {
   std::vector<std::string> ids;
@@ -32,9 +24,6 @@ std::vector<std::string> idsOf(const Json& list) {
 }
 
 using Ids = std::vector<std::string>;
-
-constexpr const char* kFridgeOpened =
-    R"({"subject": "fridge-hinge", "kind": "joint", "time": "2024-05-17T10:00:00Z", "after": {"value_deg": 45}})";
 
 TEST(Api, AnswersQuestions) {
   const ServedHome home;
@@ -157,97 +146,6 @@ TEST(Api, TellsTheStateOfThePast) {
   EXPECT_EQ(home.getJson("/v1/state")["at"], "2024-05-17T12:00:00Z");
   EXPECT_EQ(home.getJson("/v1/state")["total"], 11);  // 4 small objects, 3 pieces of furniture, 3 joints, 1 knob
   EXPECT_EQ(home.getJson("/v1/state?limit=2&offset=10")["states"].size(), 1U);
-}
-
-TEST(Api, RefusesObservationsThatAreNone) {
-  const ServedHome home;
-  const std::int64_t before = home.getJson("/v1/home")["as_of"];
-  expectFailure(home.post(""), 400, "bad_request", "body: no JSON at byte");
-  expectFailure(home.post("[1"), 400, "bad_request", "body: no JSON at byte");
-  expectFailure(home.post("[]"), 400, "bad_request", "body: a list of 0 events");
-  expectFailure(home.post("7"), 400, "bad_request", "event");
-  expectFailure(home.post(std::string(100'000, '[')), 400, "bad_request", "nested more than 8 deep");
-  expectFailure(home.post("{\"a\": 1e999}"), 400, "bad_request", "too great for a double");
-  expectFailure(home.post(R"([{"subject": "nobody", "kind": "joint", "after": {"value_deg": 1}}])"), 400, "bad_request", "nobody");
-  expectFailure(home.post(R"({"subject": "table", "kind": "edited"})"), 400, "bad_request", "'edited' is written by Oikos itself");
-  expectFailure(home.post("[" + std::string(kFridgeOpened) + ", {}]"), 400, "bad_request", "events[1]");
-  EXPECT_EQ(home.getJson("/v1/home")["as_of"], before);
-}
-
-/// "x, y, z, 0, 0, yaw" of a thing in map.
-Json poseInMap(const ServedHome& home, const std::string& id) {
-  const Json pose = home.getJson("/v1/objects/" + id)["pose_map"];
-  return {pose["x_m"], pose["y_m"], pose["z_m"], pose["roll_deg"], pose["pitch_deg"], pose["yaw_deg"]};
-}
-
-Json sightingInMap(const std::string& subject, const Json& pose_map) {
-  return {{"subject", subject}, {"kind", "sighted"}, {"after", {{"pose_map", pose_map}}}};
-}
-
-void expectPose(const Json& found, const Json& expected) {
-  for (const char* const number : {"x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"}) {
-    EXPECT_NEAR(found[number].get<double>(), expected[number].get<double>(), 1e-5) << number;
-  }
-}
-
-TEST(Api, PlacesWhatWasSeenInMapByGeometry) {
-  const ServedHome home;
-  Json pose_map = poseInMap(home, "red-cup");
-  pose_map[2] = pose_map[2].get<double>() + 0.01;  // a centimetre too high: still on the table
-  const Json before = home.getJson("/v1/objects/red-cup");
-  ASSERT_EQ(home.post(sightingInMap("red-cup", pose_map).dump()).status, 200);
-  const Json after = home.getJson("/v1/objects/red-cup");
-  EXPECT_EQ(after["parent"], "table");
-  EXPECT_EQ(after["relation"], "on");
-  EXPECT_NEAR(after["pose_parent"]["z_m"].get<double>(), before["pose_parent"]["z_m"].get<double>() + 0.01, 1e-6);
-  const Json event = home.getJson("/v1/objects/red-cup/history")["events"][0];
-  EXPECT_EQ(event["after"]["parent"], "table");
-  EXPECT_FALSE(event["after"].contains("pose_map"));
-
-  ASSERT_EQ(home.post(sightingInMap("red-cup", {0.0, 0.0, 0.0, 0.0, 0.0, 45.0}).dump()).status, 200);
-  const Json on_floor = home.getJson("/v1/objects/red-cup");
-  EXPECT_EQ(on_floor["parent"], "kitchen");
-  EXPECT_EQ(on_floor["pose_map"]["yaw_deg"], 45.0);
-}
-
-TEST(Api, PlacesWhatWasSeenInADrawerThatWasSeenToBeOpen) {
-  const ServedHome home("household");
-  const Json chest = home.getJson("/v1/objects/chest");
-  const std::string inside = chest["small_objects"][0];
-  const Json shut = home.getJson("/v1/objects/" + inside);
-  const std::string drawer = shut["parent"];
-  const Json joint = home.getJson("/v1/objects/" + drawer)["joint"];
-  ASSERT_EQ(joint["value_m"], 0.0);
-  const Json open{{"subject", joint["id"]}, {"kind", "joint"}, {"after", {{"value_m", joint["upper_m"]}}}};
-  ASSERT_EQ(home.post(open.dump()).status, 200);
-  const Json pulled_out = home.getJson("/v1/objects/" + inside);  // it went with its drawer
-  const Json pose_map = poseInMap(home, inside);
-  const Json again{{"subject", joint["id"]}, {"kind", "joint"}, {"after", {{"value_m", 0.0}}}};
-  ASSERT_EQ(home.post(again.dump()).status, 200);
-
-  ASSERT_EQ(home.post(Json::array({open, sightingInMap(inside, pose_map)}).dump()).status, 200);
-  const Json seen = home.getJson("/v1/objects/" + inside);
-  EXPECT_EQ(seen["parent"], drawer);
-  EXPECT_EQ(seen["relation"], "in");
-  expectPose(seen["pose_parent"], shut["pose_parent"]);
-  expectPose(seen["pose_map"], pulled_out["pose_map"]);
-}
-
-TEST(Api, RefusesPosesInMapThatPlaceNothing) {
-  const ServedHome home;
-  const auto refused = [&](const Json& event, const std::string& message) {
-    expectFailure(home.post(event.dump()), 400, "bad_request", message);
-  };
-  const Json origin{0, 0, 0, 0, 0, 0};
-  refused(sightingInMap("red-cup", {100, 0, 0, 0, 0, 0}),
-          "event: after: pose_map: expected a pose in map that is at some furniture or in a room");
-  refused(sightingInMap("table", origin), "'table' is no small object");
-  refused(sightingInMap("nobody", origin), "'nobody' is no small object");
-  refused(sightingInMap("red-cup", {1, 2, 3}), "pose_map = [1,2,3]: expected six finite numbers");
-  Json two_places = sightingInMap("red-cup", origin);
-  two_places["after"]["parent"] = "table";
-  refused(Json::array({two_places}), "events[0]: after: unknown key 'parent'");
-  EXPECT_EQ(home.getJson("/v1/home")["as_of"], 0);
 }
 
 TEST(Api, AdmitsOnlyWhoMay) {
