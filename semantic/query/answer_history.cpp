@@ -32,6 +32,16 @@ bool isChange(const History& history, const Event& event) {
   return !before || EventTeller::isChange(*before, *event.after);
 }
 
+/// Whether a change led to the state that was asked for, "open" or "closed"; empty: any will do.
+bool ledTo(const std::string& state, const History& history, EventTeller& teller, const Event& event) {
+  if (state.empty()) {
+    return true;
+  }
+  const auto before = stateBefore(history, event);
+  const bool open = state == "open";
+  return teller.isOpenIn(event.subject, *event.after) == open && (!before || teller.isOpenIn(event.subject, *before) != open);
+}
+
 std::string eventText(EventTeller& teller, const Event& event, const HomeClock& clock) {
   const std::string when = clock.text(event.time_ns);
   if (event.kind == EventKind::kMissed) {
@@ -178,9 +188,12 @@ void answerLastChange(AnswerContext& ctx) {
   EventTeller teller(ctx.index());
   std::vector<Event> events = eventsOf(*ctx.history(), *things);
   eraseOutside(events, ctx.span());
-  std::erase_if(events, [&](const Event& event) { return !isChange(*ctx.history(), event); });
+  const std::string& state = ctx.question().state;
+  std::erase_if(events,
+                [&](const Event& event) { return !isChange(*ctx.history(), event) || !ledTo(state, *ctx.history(), teller, event); });
   if (events.empty() && !ctx.span()) {
-    return ctx.nothingFits("I know of no change of the " + ctx.question().thing.said + ".");
+    const std::string what = state.empty() ? "change of the " : state == "open" ? "opening of the " : "closing of the ";
+    return ctx.nothingFits("I know of no " + what + ctx.question().thing.said + ".");
   }
   ctx.take(*things);
   ctx.answer.yes = !events.empty();

@@ -81,6 +81,17 @@ bool EventTeller::isChange(const State& before, const State& after) {
   return before != after;
 }
 
+std::optional<bool> EventTeller::isOpenIn(const std::string& subject, const State& state) {
+  const auto* const value = std::get_if<JointValue>(&state);
+  const JointPlace* const place = value == nullptr ? nullptr : findJoint(subject);
+  if (place == nullptr) {
+    return std::nullopt;
+  }
+  Joint joint = *place->joint;
+  joint.value = value->value;
+  return isOpen(joint);
+}
+
 std::string EventTeller::stateText(const std::string& subject, const State& state) {
   if (const auto* setting = std::get_if<KnobSetting>(&state)) {
     return "set to " + setting->state;

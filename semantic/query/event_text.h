@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -22,6 +23,8 @@ class EventTeller {
   [[nodiscard]] static std::vector<std::string> subjectsOf(const Thing& thing);
   /// Whether state `after` differs from `before` by more than a reading may be off.
   [[nodiscard]] static bool isChange(const State& before, const State& after);
+  /// Of a joint: whether that is open; nothing: it is no joint of the home, or no state of one.
+  [[nodiscard]] std::optional<bool> isOpenIn(const std::string& subject, const State& state);
   /// "on the desk", "open by 90 degrees", "set to off", "stands at (1.80, -0.25)".
   [[nodiscard]] std::string stateText(const std::string& subject, const State& state);
 

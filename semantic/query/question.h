@@ -86,10 +86,11 @@ struct Question {
   ThingPhrase thing;
   std::optional<ThingPhrase> other;  ///< of kDistance
   std::optional<TimePhrase> time;
-  std::string state;             ///< of kIsState and kWhichState: "open", "closed", "on", or the name of a setting
-  bool any = false;              ///< of kIsState: one that is so will do ("is any door open")
-  bool all = false;              ///< of kIsState: each has to be so ("are the doors closed")
-  std::string property;          ///< of kProperty: its name
+  std::string state;     ///< of kIsState and kWhichState: "open", "closed", "on", or the name of a setting; of kLastChange: what it led
+                         ///< to, "open" or "closed"; empty: anything
+  bool any = false;      ///< of kIsState: one that is so will do ("is any door open")
+  bool all = false;      ///< of kIsState: each has to be so ("are the doors closed")
+  std::string property;  ///< of kProperty: its name
   std::vector<std::string> use;  ///< of kWhatFor
 };
 

@@ -3,6 +3,11 @@
 
 namespace oikos::semantic {
 
+bool QuestionDraft::finishChange(const std::string& verb) {
+  question.state = isOneOf(verb, {"open", "opened"}) ? "open" : isOneOf(verb, {"close", "closed", "shut"}) ? "closed" : "";
+  return finish(QuestionKind::kLastChange);
+}
+
 std::string stateNamed(const std::string& word) {
   const auto open = opennessOf(word);
   return open ? (*open ? "open" : "closed") : word;

@@ -18,6 +18,8 @@ struct QuestionDraft {
 
   /// All words that are left say which thing is meant. false: there are none.
   bool finish(QuestionKind kind);
+  /// finish() of a question after changes by this verb: "opened" asks after what led to the state "open", "moved" after any.
+  bool finishChange(const std::string& verb);
 };
 
 /// What a state is called in the answer's code: "open", "closed", or the word itself.

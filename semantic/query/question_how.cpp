@@ -117,8 +117,9 @@ bool readWhen(QuestionDraft& draft) {
     words.takeBack({"last"});
     return draft.finish(QuestionKind::kLastSeen);
   }
+  const std::string first = words.empty() ? "" : words.front();
   if (words.take({"move", "open", "close", "change", "moved", "opened", "closed", "changed", "use", "used"})) {
-    return draft.finish(QuestionKind::kLastChange);
+    return draft.finishChange(first);
   }
   words.takeBack({"last"});
   if (!words.empty() && isSeeing(words.back())) {
@@ -126,9 +127,10 @@ bool readWhen(QuestionDraft& draft) {
     words.takeBack({"last"});
     return draft.finish(QuestionKind::kLastSeen);
   }
+  const std::string last = words.empty() ? "" : words.back();
   if (words.takeBack({"moved", "opened", "closed", "changed", "set", "used", "shut", "move", "change", "put", "open"})) {
     words.takeBack({"last", "been"});
-    return draft.finish(QuestionKind::kLastChange);
+    return draft.finishChange(last);
   }
   return false;
 }

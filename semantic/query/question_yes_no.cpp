@@ -78,8 +78,9 @@ bool takeSomeoneActing(WordCursor& words) {
 /// After "have you": "moved X", "seen X".
 bool readSomeoneActing(QuestionDraft& draft) {
   WordCursor& words = draft.words;
+  const std::string verb = words.empty() ? "" : words.front();
   if (words.take({"move", "moved", "change", "changed", "touch", "touched", "open", "opened", "close", "closed", "use", "used"})) {
-    return draft.finish(QuestionKind::kLastChange);
+    return draft.finishChange(verb);
   }
   words.take({"ever", "last"});
   return words.takeIf(isSeeing) && draft.finish(QuestionKind::kWhere);
@@ -88,9 +89,10 @@ bool readSomeoneActing(QuestionDraft& draft) {
 /// After "has" or "does": "X moved", "X contain Y".
 bool readDoes(QuestionDraft& draft) {
   WordCursor& words = draft.words;
+  const std::string last = words.empty() ? "" : words.back();
   if (words.takeBack({"move", "moved", "change", "changed", "opened", "closed", "touched", "used"})) {
     words.takeBack({"been"});
-    return draft.finish(QuestionKind::kLastChange);
+    return draft.finishChange(last);
   }
   const std::size_t verb = words.find({"contain", "have", "hold"});
   if (verb == 0 || verb + 1 >= words.rest().size()) {
