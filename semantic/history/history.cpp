@@ -137,7 +137,10 @@ class History::Database {
   template <class Read>
   auto read(const Read& read) -> decltype(read(std::declval<Reads&>())) {
     const std::lock_guard lock(reads_mutex_);
-    if (!reads_ && !open()) {
+    if (!reads_) {
+      open();
+    }
+    if (!reads_) {
       return {};
     }
     return read(*reads_);
@@ -177,19 +180,18 @@ class History::Database {
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
  private:
-  /// Whether there is a history to read.
-  bool open() {
+  /// If there is a history to read.
+  void open() {
     if (!std::filesystem::exists(file_)) {
-      return false;
+      return;
     }
     database_.emplace(file_, SqliteDatabase::Mode::kRead);
     if (database_->pragma("schema_version") == 0) {  // somebody is about to make it
       database_.reset();
-      return false;
+      return;
     }
     checkHistoryFormat(*database_);
     reads_.emplace(*database_);
-    return true;
   }
 
   const std::filesystem::path file_;

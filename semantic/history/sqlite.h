@@ -2,12 +2,14 @@
 // SQLite with its errors turned into ours.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -73,8 +75,10 @@ class SqliteUse {
  public:
   template <class... Values>
   explicit SqliteUse(SqliteStatement& statement, Values... values) : statement_(statement) {
-    int place = 0;
-    (statement.bind(++place, values), ...);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (statement.bind(static_cast<int>(I) + 1, values), ...);
+    }
+    (std::index_sequence_for<Values...>());
   }
   ~SqliteUse() { statement_.reset(); }
   SqliteUse(const SqliteUse&) = delete;
