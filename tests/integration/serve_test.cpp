@@ -7,6 +7,7 @@
 #include <functional>
 #include <list>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -43,7 +44,8 @@ class Writers {
   Writers(const DaemonProcess& daemon, int count) {
     const std::string headers = authorized(daemon);
     for (int i = 0; i < count; ++i) {
-      threads_.emplace_back([this, headers, port = daemon.port(), i] { write(port, headers, i); });
+      auto connection = std::make_shared<HttpConnection>(daemon.port());  // here: a thread may begin after the daemon's end
+      threads_.emplace_back([this, headers, connection, i] { write(*connection, headers, i); });
     }
   }
   ~Writers() { join(); }
@@ -65,8 +67,7 @@ class Writers {
   }
 
  private:
-  void write(int port, const std::string& headers, int writer) {
-    HttpConnection connection(port);
+  void write(HttpConnection& connection, const std::string& headers, int writer) {
     for (int i = 0;; ++i) {
       const double value_deg = (i % 100) + 0.125 * writer;
       const HttpAnswer answer = connection.ask(postRequest("/v1/observations", hingeAt(value_deg), headers));
