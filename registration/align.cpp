@@ -56,7 +56,7 @@ class Aligner {
     pairing_ = config_.association == Association::kProjective ? projectivePairs(view, scan, T_map_camera, rules)
                                                                : nearestPairs(view, scan, T_map_camera, rules);
     if (config_.has_edges) {
-      appendEdgePairs(view, scan, *edges_, T_map_camera, gate_m_, pairing_.pairs);
+      outline_places_ = appendEdgePairs(view, scan, *edges_, T_map_camera, gate_m_, pairing_.pairs);
     }
     equations_ = sumUp(pairing_.pairs, motion_, {config_.surface_sigma_m, config_.normal_sigma_deg * kDegree, gate_m_ / 3.0});
     observability_ = observe(equations_);
@@ -77,6 +77,7 @@ class Aligner {
     result.inliers = equations_.inliers;
     result.overlap = equations_.inliers / std::max(1.0, static_cast<double>(readings - counts.occluded));
     result.fit = equations_.inliers / std::max(1.0, static_cast<double>(readings));
+    result.outline = equations_.edge_inliers / std::max(1.0, static_cast<double>(outline_places_));
     result.rms_m = equations_.weight > 0.0 ? std::sqrt(equations_.squares_m / equations_.weight) : 0.0;
     result.covariance = covariance();
     if (readings < config_.min_inliers) {
@@ -194,6 +195,7 @@ class Aligner {
   double min_observability_ = 0.0;
   std::optional<ScanEdges> edges_;  ///< of the scan of this level
   Pairing pairing_;
+  int outline_places_ = 0;
   NormalEquations equations_;
   Observability observability_;
   int iterations_ = 0;

@@ -75,6 +75,7 @@ struct [[nodiscard]] AlignResult {
   int inliers = 0;
   double overlap = 0.0;    ///< inliers / pixels of the model with a reading and nothing in front
   double fit = 0.0;        ///< inliers / pixels of the model with a reading: what is hidden counts against a pose
+  double outline = 0.0;    ///< share of the model\'s outline that is one in the scan
   double rms_m = 0.0;      ///< of the distances from the planes, weighted as the kernel has it
   double moved_m = 0.0;    ///< how far the estimate went: the pivot,
   double moved_rad = 0.0;  ///< and its turn

@@ -124,9 +124,10 @@ ScanEdges::ScanEdges(const Scan& scan) : width_(scan.camera.width), sides_(scan.
   }
 }
 
-void appendEdgePairs(const render::View& view, const Scan& scan, const ScanEdges& edges, const Eigen::Isometry3d& T_map_camera,
-                     double gate_m, std::vector<Pair>& pairs) {
+int appendEdgePairs(const render::View& view, const Scan& scan, const ScanEdges& edges, const Eigen::Isometry3d& T_map_camera,
+                    double gate_m, std::vector<Pair>& pairs) {
   const Outline outline(view, scan, edges, gate_m);
+  int places = 0;
   for (int v = 0; v < scan.camera.height; ++v) {
     const auto* parts = view.part.ptr<int>(v);
     for (int u = 0; u < scan.camera.width; ++u) {
@@ -141,6 +142,7 @@ void appendEdgePairs(const render::View& view, const Scan& scan, const ScanEdges
         if (normal_px.x() * direction.du + normal_px.y() * direction.dv < kAcross) {
           continue;
         }
+        ++places;
         if (const auto offset = outline.findJump(u, v, direction)) {
           const double depth_m = static_cast<double>(view.depth_m.at<float>(v, u));
           const Eigen::Vector3d jump = depth_m * scan.camera.ray(u + *offset * direction.du, v + *offset * direction.dv);
@@ -151,6 +153,7 @@ void appendEdgePairs(const render::View& view, const Scan& scan, const ScanEdges
       }
     }
   }
+  return places;
 }
 
 }  // namespace oikos::registration

@@ -29,8 +29,8 @@ class ScanEdges {
 /// Pairs between the outline of the rendered model and the nearest jump of the scan along the image's row or column, as trackers of edges
 /// search (Harris & Stennett, "RAPID", BMVC 1990; Drummond & Cipolla, PAMI 2002), at the model's depth. A pair's normal is across the
 /// outline and the line of sight, so that its residual is a distance beside the outline. The jump must go the same way and its near
-/// side be as far away as the model, within the gate.
-void appendEdgePairs(const render::View& view, const Scan& scan, const ScanEdges& edges, const Eigen::Isometry3d& T_map_camera,
-                     double gate_m, std::vector<Pair>& pairs);
+/// side be as far away as the model, within the gate. Returns how many places of the outline were looked at.
+int appendEdgePairs(const render::View& view, const Scan& scan, const ScanEdges& edges, const Eigen::Isometry3d& T_map_camera,
+                    double gate_m, std::vector<Pair>& pairs);
 
 }  // namespace oikos::registration

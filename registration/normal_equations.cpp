@@ -59,7 +59,9 @@ NormalEquations sumUp(const std::vector<Pair>& pairs, const Motion& motion, cons
     sum.weight += weight * sigma_m * sigma_m;
     sum.squares += weight * residual_m * residual_m;
     sum.squares_m += weight * sigma_m * sigma_m * residual_m * residual_m;
-    sum.inliers += !pair.is_edge && std::abs(residual_m) < kernel_m ? 1 : 0;
+    if (std::abs(residual_m) < kernel_m) {
+      ++(pair.is_edge ? sum.edge_inliers : sum.inliers);
+    }
   }
   for (const auto& [surface, shift] : shifts) {
     sum.surfaces += shift * shift.transpose();

@@ -28,7 +28,8 @@ struct NormalEquations {
   double weight = 0.0;
   double squares = 0.0;  ///< of residuals, weighted, in deviations
   double squares_m = 0.0;
-  int inliers = 0;  ///< within the kernel
+  int inliers = 0;       ///< on surfaces, within the kernel
+  int edge_inliers = 0;  ///< on outlines
 };
 
 /// Geman & McClure's kernel; its scale comes from outside and shrinks from coarse to fine.

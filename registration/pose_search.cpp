@@ -17,6 +17,12 @@ struct Hypothesis {
   Eigen::Isometry3d T_map_moving = Eigen::Isometry3d::Identity();
 };
 
+/// By what it explains of the scan, outlines included: a table top that slid along itself is where a table top is.
+double scoreOf(const AlignResult& result) {
+  constexpr double kOutline = 0.3;
+  return result.fit + kOutline * result.outline;
+}
+
 bool isUsable(const AlignResult& result) {
   return result.status != AlignStatus::kNotInView && result.status != AlignStatus::kTooLittleOverlap;
 }
@@ -52,7 +58,8 @@ class Search {
       return first.result;
     }
     std::vector<Hypothesis> found = coarsely(middle);
-    std::stable_sort(found.begin(), found.end(), [](const Hypothesis& a, const Hypothesis& b) { return a.result.fit > b.result.fit; });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Hypothesis& a, const Hypothesis& b) { return scoreOf(a.result) > scoreOf(b.result); });
     found.resize(std::min(found.size(), static_cast<std::size_t>(config_.best_starts)));
     AlignConfig fine = config_.align;
     fine.coarse_iterations = 0;
@@ -97,12 +104,12 @@ class Search {
 
   AlignResult theBest(const std::vector<Hypothesis>& found) {
     const auto best = std::max_element(found.begin(), found.end(), [](const Hypothesis& a, const Hypothesis& b) {
-      return std::pair(isUsable(a.result), a.result.fit) < std::pair(isUsable(b.result), b.result.fit);
+      return std::pair(isUsable(a.result), scoreOf(a.result)) < std::pair(isUsable(b.result), scoreOf(b.result));
     });
     motion_.restore(best->state);
     AlignResult result = best->result;
     const bool rivalled = std::any_of(found.begin(), found.end(), [&](const Hypothesis& other) {
-      return isUsable(other.result) && other.result.fit > best->result.fit - config_.clear_lead && !isSame(other, *best);
+      return isUsable(other.result) && scoreOf(other.result) > scoreOf(best->result) - config_.clear_lead && !isSame(other, *best);
     });
     if (rivalled && result.status == AlignStatus::kConverged) {
       result.status = AlignStatus::kAmbiguous;
