@@ -130,9 +130,9 @@ ExitCode runDemo(const DemoOptions& options, const Session& session) {
   page.questions = ask(known, timeOf(*recording));
   page.facts = figures(home, drive, map);
   page.frames_jpg = someFrames(drive);
-  const auto floor = recording::encodePngAtLevel(demo::drawFloor({geometry::readPly(home / "map" / "cloud.ply"), known,
-                                                                  recording::readTrajectory(home / "map" / "base_trajectory.txt")}),
-                                                 6);
+  const auto floor = recording::encodePng(demo::drawFloor({geometry::readPly(home / "map" / "cloud.ply"), known,
+                                                           recording::readTrajectory(home / "map" / "base_trajectory.txt")}),
+                                          6);
   page.floor_png.assign(floor.begin(), floor.end());
   base::writeFileAtomically(options.out / "floor.png", page.floor_png);
   base::writeFileAtomically(options.out / "report.html", demo::toHtml(page));

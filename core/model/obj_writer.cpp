@@ -71,7 +71,7 @@ std::string writeTextures(const TriangleMesh& mesh, const std::filesystem::path&
     const auto [entry, is_new] = written.try_emplace(material.texture.data);
     if (is_new) {
       entry->second = file.stem().string() + "_" + std::to_string(written.size()) + ".png";
-      const std::vector<unsigned char> png = recording::encodePngAtLevel(material.texture, kTextureLevel);
+      const std::vector<unsigned char> png = recording::encodePng(material.texture, kTextureLevel);
       base::writeFileAtomically(file.parent_path() / entry->second, {reinterpret_cast<const char*>(png.data()), png.size()});
     }
     mtl += "map_Kd " + entry->second + '\n';

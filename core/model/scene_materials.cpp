@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/geometry/tone_curve.h"
 #include "core/recording/image_codec.h"
 
 namespace oikos::model {
@@ -52,8 +53,7 @@ float clipped(float value) {
 }  // namespace
 
 float srgbOfLinear(float linear) {
-  const float value = clipped(linear);
-  return value <= 0.0031308F ? 12.92F * value : 1.055F * std::pow(value, 1.0F / 2.4F) - 0.055F;
+  return geometry::srgbOfLight(clipped(linear));
 }
 
 SceneMaterials::Worn SceneMaterials::wear(unsigned scene_index, bool has_vertex_colors) {

@@ -118,20 +118,4 @@ std::vector<unsigned char> encodeJpeg(const cv::Mat& bgr, int quality) {
   return bytes;
 }
 
-std::vector<unsigned char> encodePng(const cv::Mat& image) {
-  OIKOS_CHECK(image.type() == CV_8UC4 || image.type() == CV_16UC1);
-  PngImage png;
-  png.image.width = static_cast<png_uint_32>(image.cols);
-  png.image.height = static_cast<png_uint_32>(image.rows);
-  png.image.format = image.type() == CV_8UC4 ? PNG_FORMAT_BGRA : PNG_FORMAT_LINEAR_Y;
-  png.image.flags = PNG_IMAGE_FLAG_FAST;
-  const auto stride = static_cast<png_int_32>(image.step1());
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.image);
-  std::vector<unsigned char> bytes(size);
-  const int written = png_image_write_to_memory(&png.image, bytes.data(), &size, 0, image.data, stride, nullptr);
-  OIKOS_CHECK(written != 0);
-  bytes.resize(size);
-  return bytes;
-}
-
 }  // namespace oikos::recording

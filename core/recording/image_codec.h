@@ -19,7 +19,5 @@ namespace oikos::recording {
 
 /// From CV_8UC3, BGR; quality of 1 to 100.
 [[nodiscard]] std::vector<unsigned char> encodeJpeg(const cv::Mat& bgr, int quality);
-/// From CV_8UC4 (BGRA) or CV_16UC1.
-[[nodiscard]] std::vector<unsigned char> encodePng(const cv::Mat& image);
 
 }  // namespace oikos::recording

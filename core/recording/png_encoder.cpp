@@ -5,6 +5,7 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -38,11 +39,13 @@ void appendChunk(Bytes& png, std::string_view type, const Bytes& data) {
 
 /// Samples in the file's order: red first, the high byte first.
 void copyRow(const cv::Mat& image, int row, Bytes& samples) {
-  if (image.type() == CV_8UC3) {
-    const auto* pixel = image.ptr<cv::Vec3b>(row);
-    for (int x = 0; x < image.cols; ++x) {
-      for (int channel = 0; channel < 3; ++channel) {
-        samples[static_cast<std::size_t>(3 * x + channel)] = pixel[x][2 - channel];
+  if (image.depth() == CV_8U) {
+    const int channels = image.channels();
+    const auto* from = image.ptr<std::uint8_t>(row);
+    auto* to = samples.data();
+    for (int x = 0; x < image.cols; ++x, from += channels, to += channels) {
+      for (int channel = 0; channel < channels; ++channel) {
+        to[channel] = from[channel < 3 ? 2 - channel : channel];
       }
     }
     return;
@@ -59,55 +62,71 @@ int paeth(int left, int up, int corner) {
   const int to_left = std::abs(estimate - left);
   const int to_up = std::abs(estimate - up);
   const int to_corner = std::abs(estimate - corner);
-  if (to_left <= to_up && to_left <= to_corner) {
-    return left;
-  }
-  return to_up <= to_corner ? up : corner;
+  const int nearer = to_up <= to_corner ? up : corner;
+  return (to_left <= to_up) & (to_left <= to_corner) ? left : nearer;
 }
 
-int predict(int filter, int left, int up, int corner) {
-  switch (filter) {
-    case 1:
-      return left;
-    case 2:
-      return up;
-    case 3:
-      return (left + up) / 2;
-    case 4:
-      return paeth(left, up, corner);
-    default:
-      return 0;
-  }
-}
+/// Two rows with an empty pixel before each, so that the first one has neighbours too.
+struct Rows {
+  const unsigned char* row;
+  const unsigned char* above;
+  std::size_t pixel_bytes;
+  std::size_t size;
+};
 
 /// Writes the row's bytes less their prediction, and returns the sum of the differences' absolute values.
-std::uint64_t applyFilter(int filter, std::size_t pixel_bytes, const Bytes& row, const Bytes& above, Bytes& filtered) {
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    const int left = i < pixel_bytes ? 0 : row[i - pixel_bytes];
-    const int corner = i < pixel_bytes ? 0 : above[i - pixel_bytes];
-    filtered[i] = static_cast<unsigned char>(row[i] - predict(filter, left, above[i], corner));
-    sum += static_cast<std::uint64_t>(std::abs(static_cast<int>(static_cast<signed char>(filtered[i]))));
+template <class Predict>
+std::uint64_t subtract(const Rows& rows, const Predict& predict, unsigned char* __restrict filtered) {
+  const unsigned char* __restrict row = rows.row;
+  const unsigned char* __restrict above = rows.above;
+  const unsigned char* __restrict left = row - rows.pixel_bytes;
+  const unsigned char* __restrict corner = above - rows.pixel_bytes;
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i < rows.size; ++i) {
+    filtered[i] = static_cast<unsigned char>(row[i] - predict(int{left[i]}, int{above[i]}, int{corner[i]}));
+    sum += static_cast<std::uint32_t>(std::abs(int{static_cast<signed char>(filtered[i])}));
   }
   return sum;
+}
+
+std::uint64_t applyFilter(std::size_t filter, const Rows& rows, unsigned char* filtered) {
+  switch (filter) {
+    case 1:
+      return subtract(
+          rows, [](int left, int, int) { return left; }, filtered);
+    case 2:
+      return subtract(
+          rows, [](int, int up, int) { return up; }, filtered);
+    case 3:
+      return subtract(
+          rows, [](int left, int up, int) { return (left + up) / 2; }, filtered);
+    case 4:
+      return subtract(rows, paeth, filtered);
+    default:
+      return subtract(
+          rows, [](int, int, int) { return 0; }, filtered);
+  }
 }
 
 /// Each row under the filter that leaves the least sum of differences: the heuristic of chapter 12.7.
 Bytes filterRows(const cv::Mat& image, bool choose) {
   const std::size_t pixel_bytes = image.elemSize();
   const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(image.cols);
-  Bytes row(row_bytes);
-  Bytes above(row_bytes, 0);
+  Bytes samples(row_bytes);
+  Bytes row(pixel_bytes + row_bytes, 0);
+  Bytes above(row.size(), 0);
   std::array<Bytes, kFilterCount> candidates;
   candidates.fill(Bytes(row_bytes));
   Bytes stream;
   stream.reserve((row_bytes + 1) * static_cast<std::size_t>(image.rows));
   for (int y = 0; y < image.rows; ++y) {
-    copyRow(image, y, row);
+    copyRow(image, y, samples);
+    std::copy(samples.begin(), samples.end(), row.begin() + static_cast<std::ptrdiff_t>(pixel_bytes));
+    const Rows rows{row.data() + pixel_bytes, above.data() + pixel_bytes, pixel_bytes, row_bytes};
     std::size_t best = 0;
-    std::uint64_t best_sum = applyFilter(0, pixel_bytes, row, above, candidates[0]);
+    std::uint64_t best_sum = applyFilter(0, rows, candidates[0].data());
     for (std::size_t filter = 1; choose && filter < kFilterCount; ++filter) {
-      const std::uint64_t sum = applyFilter(static_cast<int>(filter), pixel_bytes, row, above, candidates[filter]);
+      const std::uint64_t sum = applyFilter(filter, rows, candidates[filter].data());
       if (sum < best_sum) {
         best = filter;
         best_sum = sum;
@@ -135,17 +154,16 @@ Bytes headerOf(const cv::Mat& image) {
   Bytes header;
   appendBigEndian(header, static_cast<std::uint32_t>(image.cols));
   appendBigEndian(header, static_cast<std::uint32_t>(image.rows));
-  const bool color = image.type() == CV_8UC3;
-  const unsigned char depth_bits = color ? 8 : 16;
-  const unsigned char color_type = color ? 2 : 0;
+  const unsigned char depth_bits = image.depth() == CV_8U ? 8 : 16;
+  const unsigned char color_type = image.channels() == 4 ? 6 : image.channels() == 3 ? 2 : 0;  // 6: with transparency
   header.insert(header.end(), {depth_bits, color_type, 0, 0, 0});
   return header;
 }
 
 }  // namespace
 
-std::vector<unsigned char> encodePngAtLevel(const cv::Mat& image, int level) {
-  OIKOS_CHECK(!image.empty() && (image.type() == CV_8UC3 || image.type() == CV_16UC1));
+std::vector<unsigned char> encodePng(const cv::Mat& image, int level) {
+  OIKOS_CHECK(!image.empty() && (image.type() == CV_8UC3 || image.type() == CV_8UC4 || image.type() == CV_16UC1));
   OIKOS_CHECK(level >= 0 && level <= 9);
   Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
   appendChunk(png, "IHDR", headerOf(image));

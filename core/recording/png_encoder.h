@@ -6,8 +6,8 @@
 
 namespace oikos::recording {
 
-/// A PNG of CV_8UC3 (BGR) or CV_16UC1 pixels as they are, without a colour space; `level` from 0 (stored) over 1 (fast) to 9 (small) is
-/// zlib's scale. Every level decodes to the same pixels. Thread-safe.
-[[nodiscard]] std::vector<unsigned char> encodePngAtLevel(const cv::Mat& image, int level);
+/// A PNG of CV_8UC3 (BGR), CV_8UC4 (BGRA) or CV_16UC1 pixels as they are, without a colour space; `level` from 0 (stored) over 1 (fast) to
+/// 9 (small) is zlib's scale. Every level decodes to the same pixels. Thread-safe.
+[[nodiscard]] std::vector<unsigned char> encodePng(const cv::Mat& image, int level);
 
 }  // namespace oikos::recording

@@ -37,7 +37,8 @@ Eigen::Vector2d undistort(const camera::LensDistortion& distortion, const Eigen:
 
 }  // namespace
 
-CameraRays::CameraRays(const camera::PinholeCamera& camera, const camera::LensDistortion& distortion) : camera_(camera) {
+CameraRays::CameraRays(const camera::PinholeCamera& camera, const camera::LensDistortion& distortion)
+    : camera_(camera), per_fx_(1.0 / camera.fx), per_fy_(1.0 / camera.fy) {
   if (distortion.isZero()) {
     return;
   }
@@ -47,14 +48,6 @@ CameraRays::CameraRays(const camera::PinholeCamera& camera, const camera::LensDi
       rays_.push_back(undistort(distortion, camera.ray(u, v).head<2>()));
     }
   }
-}
-
-Eigen::Vector2d CameraRays::at(int u_px, int v_px, const Eigen::Vector2d& offset_px) const {
-  if (rays_.empty()) {
-    return camera_.ray(u_px + offset_px.x(), v_px + offset_px.y()).head<2>();
-  }
-  return stored(u_px, v_px) + 0.5 * (offset_px.x() * (stored(u_px + 1, v_px) - stored(u_px - 1, v_px)) +
-                                     offset_px.y() * (stored(u_px, v_px + 1) - stored(u_px, v_px - 1)));
 }
 
 }  // namespace oikos::render

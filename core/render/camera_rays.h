@@ -20,7 +20,13 @@ class CameraRays {
   [[nodiscard]] double pixelSize() const { return 1.0 / camera_.fx; }
 
   /// The point at z = 1 m (camera frame) that falls on a pixel's centre, moved by a part of a pixel: `offset_px` in [-0.5, 0.5].
-  [[nodiscard]] Eigen::Vector2d at(int u_px, int v_px, const Eigen::Vector2d& offset_px = Eigen::Vector2d::Zero()) const;
+  [[nodiscard]] Eigen::Vector2d at(int u_px, int v_px, const Eigen::Vector2d& offset_px = Eigen::Vector2d::Zero()) const {
+    if (rays_.empty()) {
+      return {(u_px + offset_px.x() - camera_.cx) * per_fx_, (v_px + offset_px.y() - camera_.cy) * per_fy_};
+    }
+    return stored(u_px, v_px) + 0.5 * (offset_px.x() * (stored(u_px + 1, v_px) - stored(u_px - 1, v_px)) +
+                                       offset_px.y() * (stored(u_px, v_px + 1) - stored(u_px, v_px - 1)));
+  }
 
  private:
   [[nodiscard]] const Eigen::Vector2d& stored(int u_px, int v_px) const {
@@ -28,6 +34,8 @@ class CameraRays {
   }
 
   camera::PinholeCamera camera_;
+  double per_fx_;
+  double per_fy_;
   std::vector<Eigen::Vector2d> rays_;  ///< with a margin of one pixel; empty without distortion
 };
 

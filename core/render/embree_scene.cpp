@@ -14,27 +14,21 @@ namespace oikos::render {
 
 namespace {
 
-using PacketMask = std::array<int, kPacketSize>;
-
 template <typename Ray>
-PacketMask fill(const RayPacket& rays, Ray& ray) {
-  PacketMask valid{};
-  for (int i = 0; i < kPacketSize; ++i) {
-    valid[i] = rays.valid[i] ? -1 : 0;
-    ray.org_x[i] = rays.origin_map[i].x();
-    ray.org_y[i] = rays.origin_map[i].y();
-    ray.org_z[i] = rays.origin_map[i].z();
-    ray.dir_x[i] = rays.direction_map[i].x();
-    ray.dir_y[i] = rays.direction_map[i].y();
-    ray.dir_z[i] = rays.direction_map[i].z();
-    ray.tnear[i] = rays.near[i];
-    ray.tfar[i] = rays.far[i];
-    ray.time[i] = 0.0F;
-    ray.mask[i] = ~0U;
-    ray.id[i] = 0;
-    ray.flags[i] = 0;
-  }
-  return valid;
+void fill(const RayPacket& rays, Ray& ray) {
+  const auto copy = [](const Lanes<float>& from, float* to) { std::copy(from.begin(), from.end(), to); };
+  copy(rays.origin_x, ray.org_x);
+  copy(rays.origin_y, ray.org_y);
+  copy(rays.origin_z, ray.org_z);
+  copy(rays.direction_x, ray.dir_x);
+  copy(rays.direction_y, ray.dir_y);
+  copy(rays.direction_z, ray.dir_z);
+  copy(rays.near, ray.tnear);
+  copy(rays.far, ray.tfar);
+  std::fill_n(ray.time, kPacketSize, 0.0F);
+  std::fill_n(ray.mask, kPacketSize, ~0U);
+  std::fill_n(ray.id, kPacketSize, 0U);
+  std::fill_n(ray.flags, kPacketSize, 0U);
 }
 
 RTCIntersectContext coherentContext() {
@@ -134,31 +128,31 @@ void EmbreeScene::commit() {
 
 void EmbreeScene::intersect(const RayPacket& rays, HitPacket& hits) const {
   RTCRayHit8 query;
-  const PacketMask valid = fill(rays, query.ray);
-  for (int i = 0; i < kPacketSize; ++i) {
-    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
+  fill(rays, query.ray);
+  std::fill_n(query.hit.geomID, kPacketSize, RTC_INVALID_GEOMETRY_ID);
+  std::fill_n(query.hit.instID[0], kPacketSize, RTC_INVALID_GEOMETRY_ID);
   RTCIntersectContext context = coherentContext();
-  rtcIntersect8(valid.data(), scene_, &context, &query);
+  rtcIntersect8(rays.valid.data(), scene_, &context, &query);
   for (int i = 0; i < kPacketSize; ++i) {
-    const bool is_hit = rays.valid[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-    hits[i] = is_hit ? RayHit{static_cast<std::int32_t>(query.hit.instID[0][i]), query.hit.primID[i], query.ray.tfar[i], query.hit.u[i],
-                              query.hit.v[i]}
-                     : RayHit{};
+    const bool is_hit = rays.valid[i] != 0 && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    hits.part[i] = is_hit ? static_cast<std::int32_t>(query.hit.instID[0][i]) : -1;
+    hits.triangle[i] = is_hit ? query.hit.primID[i] : 0;
+    hits.distance[i] = query.ray.tfar[i];
+    hits.u[i] = query.hit.u[i];
+    hits.v[i] = query.hit.v[i];
   }
 }
 
-std::array<bool, kPacketSize> EmbreeScene::occluded(const RayPacket& rays) const {
+std::uint8_t EmbreeScene::occluded(const RayPacket& rays) const {
   RTCRay8 query;
-  const PacketMask valid = fill(rays, query);
+  fill(rays, query);
   RTCIntersectContext context = coherentContext();
-  rtcOccluded8(valid.data(), scene_, &context, &query);
-  std::array<bool, kPacketSize> result{};
-  for (int i = 0; i < kPacketSize; ++i) {
-    result[i] = rays.valid[i] && query.tfar[i] < 0.0F;
+  rtcOccluded8(rays.valid.data(), scene_, &context, &query);
+  unsigned bits = 0;
+  for (unsigned i = 0; i < kPacketSize; ++i) {
+    bits |= (rays.valid[i] != 0 && query.tfar[i] < 0.0F ? 1U : 0U) << i;
   }
-  return result;
+  return static_cast<std::uint8_t>(bits);
 }
 
 }  // namespace oikos::render

@@ -16,24 +16,26 @@ namespace oikos::render {
 
 constexpr int kPacketSize = 8;
 
-/// Eight rays. A direction has its z of the camera frame 1 m, so a distance is a depth.
-struct RayPacket {
-  std::array<Eigen::Vector3f, kPacketSize> origin_map;
-  std::array<Eigen::Vector3f, kPacketSize> direction_map;
-  std::array<float, kPacketSize> near;
-  std::array<float, kPacketSize> far;
-  std::array<bool, kPacketSize> valid{};
+template <typename Number>
+using Lanes = std::array<Number, kPacketSize>;
+
+/// Eight rays, each number beside its like, as vector instructions want it. A direction has its z of the camera frame 1 m, so a distance is
+/// a depth.
+struct alignas(32) RayPacket {
+  Lanes<float> origin_x, origin_y, origin_z;           ///< map
+  Lanes<float> direction_x, direction_y, direction_z;  ///< map
+  Lanes<float> near;
+  Lanes<float> far;
+  Lanes<std::int32_t> valid{};  ///< -1: a ray, 0: none
 };
 
-struct RayHit {
-  std::int32_t part = -1;  ///< -1: nothing
-  std::uint32_t triangle = 0;
-  float distance = 0.0F;  ///< in lengths of the ray's direction
-  float u = 0.0F;         ///< barycentric, of the triangle's second corner
-  float v = 0.0F;         ///< of its third
+struct alignas(32) HitPacket {
+  Lanes<std::int32_t> part;  ///< -1: nothing
+  Lanes<std::uint32_t> triangle;
+  Lanes<float> distance;  ///< in lengths of the ray's direction
+  Lanes<float> u;         ///< barycentric, of the triangle's second corner
+  Lanes<float> v;         ///< of its third
 };
-
-using HitPacket = std::array<RayHit, kPacketSize>;
 
 /// Parts as instances of their meshes: one search tree a mesh, one over the instances.
 class EmbreeScene {
@@ -51,8 +53,8 @@ class EmbreeScene {
 
   /// The nearest hit of each valid ray. Thread-safe between commits.
   void intersect(const RayPacket& rays, HitPacket& hits) const;
-  /// Whether something lies between `near` and `far` of each valid ray; false for the others. Thread-safe between commits.
-  [[nodiscard]] std::array<bool, kPacketSize> occluded(const RayPacket& rays) const;
+  /// Of which valid rays something lies between `near` and `far`: a bit each, the first ray's the lowest. Thread-safe between commits.
+  [[nodiscard]] std::uint8_t occluded(const RayPacket& rays) const;
 
  private:
   RTCScene treeOf(const model::TriangleMesh& mesh_part);

@@ -16,17 +16,16 @@ struct PixelRay {
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
 };
 
-/// What a ray has hit.
-struct SurfacePoint {
-  RayHit hit;
-  float depth_m = 0.0F;
-  Eigen::Vector3f point_map = Eigen::Vector3f::Zero();
-  Eigen::Vector3f normal_map = Eigen::Vector3f::Zero();     ///< of the surface as it looks, towards the camera
-  Eigen::Vector3f to_camera_map = Eigen::Vector3f::Zero();  ///< length 1
-};
-
 using PixelPacket = std::array<PixelRay, kPacketSize>;
-using SurfacePacket = std::array<SurfacePoint, kPacketSize>;
+
+/// What eight rays have hit. Of a lane that has hit nothing only `part` and the normal, which is 0, mean anything.
+struct alignas(32) SurfacePacket {
+  HitPacket hit;
+  Lanes<float> depth_m;
+  Lanes<float> x, y, z;                                ///< of the point, map
+  Lanes<float> normal_x, normal_y, normal_z;           ///< of the surface as it looks, towards the camera; map, length 1
+  Lanes<float> to_camera_x, to_camera_y, to_camera_z;  ///< map, length 1
+};
 
 /// Immutable, so thread-safe while the scene is not changed.
 class RayCaster {
@@ -39,7 +38,16 @@ class RayCaster {
   }
 
  private:
-  [[nodiscard]] SurfacePoint surfaceAt(const RayHit& hit, const Eigen::Vector3d& origin_map, const Eigen::Vector3d& direction_map) const;
+  /// Rays in double precision: from `origin` along `direction`; map.
+  struct alignas(32) Rays {
+    Lanes<double> origin_x, origin_y, origin_z, direction_x, direction_y, direction_z;
+  };
+  /// The planes that the rays have hit: normal · point = offset; map.
+  struct alignas(32) Planes {
+    Lanes<double> normal_x, normal_y, normal_z, offset_m;
+  };
+  void aim(const PixelPacket& pixels, Rays& rays, RayPacket& packet) const;
+  void findPlanes(const Rays& rays, SurfacePacket& surfaces, Planes& planes) const;
 
   const std::vector<ScenePart>& parts_;
   const EmbreeScene& embree_;

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/geometry/tone_curve.h"
 #include "core/render/embree_scene.h"
+#include "core/render/surface_table.h"
 #include "core/render/texture.h"
 
 namespace oikos::render {
@@ -38,9 +40,10 @@ struct Scene::Impl {
     ScenePart added;
     added.model = model;
     added.part = static_cast<int>(part);
+    added.surfaces = surfacesOf(*mesh_part);
     for (const model::Material& material : mesh_part->materials.empty() ? std::vector{model::Material{}} : mesh_part->materials) {
-      added.looks.push_back(
-          {material.color_rgb.unaryExpr([](float srgb) { return linearOf(srgb); }), material.gloss, pyramidOf(material.texture)});
+      added.looks.push_back({material.color_rgb.unaryExpr([](float srgb) { return geometry::lightOfSrgb(srgb); }), material.gloss,
+                             pyramidOf(material.texture)});
     }
     added.mesh_part = std::move(mesh_part);
     parts.push_back(std::move(added));
@@ -57,10 +60,19 @@ struct Scene::Impl {
     return pyramid;
   }
 
+  std::shared_ptr<const std::vector<SurfaceTriangle>> surfacesOf(const model::TriangleMesh& mesh_part) {
+    std::shared_ptr<const std::vector<SurfaceTriangle>>& table = surfaces[&mesh_part];
+    if (!table) {
+      table = std::make_shared<const std::vector<SurfaceTriangle>>(makeSurfaceTable(mesh_part));
+    }
+    return table;
+  }
+
   EmbreeScene embree;
   std::vector<PosedModel> models;
   std::vector<ScenePart> parts;
-  std::map<const unsigned char*, std::shared_ptr<const TexturePyramid>> pyramids;  ///< by pixels, which their first level keeps alive
+  std::map<const unsigned char*, std::shared_ptr<const TexturePyramid>> pyramids;  ///< by pixels, which the parts' meshes keep alive
+  std::map<const model::TriangleMesh*, std::shared_ptr<const std::vector<SurfaceTriangle>>> surfaces;
 };
 
 Scene::Scene() : impl_(std::make_unique<Impl>()) {}

@@ -12,10 +12,11 @@ namespace oikos::render {
 
 class EmbreeScene;
 class TexturePyramid;
+struct SurfaceTriangle;
 
 /// A material, ready to be looked at.
 struct SurfaceLook {
-  Eigen::Vector3f color_rgb = Eigen::Vector3f::Zero();  ///< linear
+  Eigen::Array3f color_rgb = Eigen::Array3f::Zero();  ///< linear
   float gloss = 0.0F;
   std::shared_ptr<const TexturePyramid> texture;  ///< null: none
 };
@@ -25,12 +26,9 @@ struct ScenePart {
   int model = 0;  ///< its number in the scene
   int part = 0;   ///< index in its ArticulatedModel
   std::shared_ptr<const model::TriangleMesh> mesh_part;
-  std::vector<SurfaceLook> looks;  ///< one a material, at least one
+  std::shared_ptr<const std::vector<SurfaceTriangle>> surfaces;  ///< one a triangle
+  std::vector<SurfaceLook> looks;                                ///< one a material, at least one
   Eigen::Isometry3d T_map_part = Eigen::Isometry3d::Identity();
-
-  [[nodiscard]] const SurfaceLook& lookOf(std::uint32_t triangle) const {
-    return looks[mesh_part->triangle_materials.empty() ? 0 : mesh_part->triangle_materials[triangle]];
-  }
 };
 
 /// A set of articulated models with their poses and joint values. Models that share a mesh share its search tree, and a part that moves

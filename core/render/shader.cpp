@@ -6,112 +6,136 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/tone_curve.h"
+#include "core/render/surface_table.h"
 #include "core/render/texture.h"
 
 namespace oikos::render {
 
 namespace {
 
-/// A shadow ray starts this far off the surface (m), or it would hit what it starts from.
-constexpr float kShadowOffset_m = 2e-3F;
-constexpr float kShinePower = 60.0F;
-
-Eigen::Vector3f vertexColor(const model::TriangleMesh& mesh, const RayHit& hit) {
-  const model::TriangleMesh::Triangle& corners = mesh.triangles[hit.triangle];
-  const std::array<float, 3> weights = {1.0F - hit.u - hit.v, hit.u, hit.v};
-  Eigen::Vector3f color = Eigen::Vector3f::Zero();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const geometry::Rgb& rgb = mesh.vertex_colors[corners[i]];
-    color += weights[i] * Eigen::Vector3f(linearOf(rgb[0]), linearOf(rgb[1]), linearOf(rgb[2]));
+Eigen::Array3f vertexColor(const model::TriangleMesh& mesh, const HitPacket& hit, std::size_t i) {
+  const geometry::ToneCurve& curve = geometry::ToneCurve::instance();
+  const model::TriangleMesh::Triangle& corners = mesh.triangles[hit.triangle[i]];
+  const std::array<float, 3> weights = {1.0F - hit.u[i] - hit.v[i], hit.u[i], hit.v[i]};
+  Eigen::Array3f color = Eigen::Array3f::Zero();
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const geometry::Rgb& rgb = mesh.vertex_colors[corners[corner]];
+    color += weights[corner] * Eigen::Array3f(curve.toLight(rgb[0]), curve.toLight(rgb[1]), curve.toLight(rgb[2]));
   }
   return color;
 }
 
-Eigen::Vector2f textureCoordinate(const model::TriangleMesh& mesh, const RayHit& hit) {
-  const model::TriangleMesh::Triangle& corners = mesh.triangles[hit.triangle];
-  return (1.0F - hit.u - hit.v) * mesh.texture_coordinates[corners[0]] + hit.u * mesh.texture_coordinates[corners[1]] +
-         hit.v * mesh.texture_coordinates[corners[2]];
-}
-
-/// Texture pixels along a metre of the triangle, in the mean over all directions.
-float texelDensity(const model::TriangleMesh& mesh, std::uint32_t triangle, const TexturePyramid& texture) {
-  const model::TriangleMesh::Triangle& corners = mesh.triangles[triangle];
-  const Eigen::Vector2f first = mesh.texture_coordinates[corners[1]] - mesh.texture_coordinates[corners[0]];
-  const Eigen::Vector2f second = mesh.texture_coordinates[corners[2]] - mesh.texture_coordinates[corners[0]];
-  const float texels = std::abs(first.x() * second.y() - first.y() * second.x()) * texture.width() * texture.height();
-  const auto area = static_cast<float>(mesh.areaNormal(triangle).norm());
-  return std::sqrt(texels / std::max(area, 1e-12F));
+/// x^60, as Blinn's lobe.
+float lobe(float x) {
+  const float x4 = x * x * x * x;
+  const float x16 = x4 * x4 * x4 * x4;
+  return x16 * x16 * x16 * x4 * x4 * x4;
 }
 
 }  // namespace
 
 Shader::Shader(const Scene& scene, const CameraRays& rays, const ViewConfig& config)
-    : parts_(scene.parts()), embree_(scene.embree()), config_(config), pixel_size_(static_cast<float>(rays.pixelSize())) {}
+    : parts_(scene.parts()), config_(config), pixel_size_(static_cast<float>(rays.pixelSize())) {}
 
-Eigen::Vector3f Shader::albedo(const SurfacePoint& surface) const {
-  const ScenePart& part = parts_[static_cast<std::size_t>(surface.hit.part)];
-  const model::TriangleMesh& mesh = *part.mesh_part;
-  const SurfaceLook& look = lookAt(surface);
-  Eigen::Vector3f color = look.color_rgb;
-  if (!mesh.vertex_colors.empty()) {
-    color = color.cwiseProduct(vertexColor(mesh, surface.hit));
-  }
-  if (look.texture && !mesh.texture_coordinates.empty()) {
-    const float facing = std::max(0.1F, surface.normal_map.dot(surface.to_camera_map));
-    const float footprint_m = surface.depth_m * pixel_size_ / std::sqrt(facing);
-    const float footprint_px = footprint_m * texelDensity(mesh, surface.hit.triangle, *look.texture);
-    color = color.cwiseProduct(look.texture->at(textureCoordinate(mesh, surface.hit), footprint_px));
-  }
-  return color;
-}
-
-void Shader::shade(const SurfacePacket& surfaces, ColorPacket& colors_rgb) const {
-  ColorPacket light_rgb;
-  ColorPacket shine_rgb;
+void Shader::findLooks(const SurfacePacket& surfaces, ColorPacket& albedo_rgb, Lanes<float>& gloss) const {
+  Lanes<float> footprint_m;
   for (std::size_t i = 0; i < kPacketSize; ++i) {
-    const float up = 0.5F + 0.5F * surfaces[i].normal_map.z();
-    light_rgb[i] = up * config_.lighting.from_above_rgb + (1.0F - up) * config_.lighting.from_below_rgb;
-    shine_rgb[i].setZero();
+    const float facing = surfaces.normal_x[i] * surfaces.to_camera_x[i] + surfaces.normal_y[i] * surfaces.to_camera_y[i] +
+                         surfaces.normal_z[i] * surfaces.to_camera_z[i];
+    footprint_m[i] = surfaces.depth_m[i] * pixel_size_ / std::sqrt(facing > 0.1F ? facing : 0.1F);
   }
-  for (const PointLight& lamp : config_.lighting.lamps) {
-    addLamp(lamp, surfaces, light_rgb, shine_rgb);
-  }
+  const HitPacket& hit = surfaces.hit;
   for (std::size_t i = 0; i < kPacketSize; ++i) {
-    colors_rgb[i] = surfaces[i].hit.part < 0
-                        ? config_.background_rgb
-                        : Eigen::Vector3f(albedo(surfaces[i]).cwiseProduct(light_rgb[i]) + gloss(surfaces[i]) * shine_rgb[i]);
+    Eigen::Array3f color = Eigen::Array3f::Zero();
+    gloss[i] = 0.0F;
+    if (hit.part[i] >= 0) {
+      const ScenePart& part = parts_[static_cast<std::size_t>(hit.part[i])];
+      const SurfaceTriangle& surface = (*part.surfaces)[hit.triangle[i]];
+      const SurfaceLook& look = part.looks[surface.material];
+      color = look.color_rgb;
+      gloss[i] = look.gloss;
+      if (surface.texels_per_m > 0.0F) {
+        const Eigen::Vector2f coordinate = surface.texture_origin + hit.u[i] * surface.texture_along_u + hit.v[i] * surface.texture_along_v;
+        color *= look.texture->at(coordinate, footprint_m[i] * surface.texels_per_m);
+      }
+      if (!part.mesh_part->vertex_colors.empty()) {
+        color *= vertexColor(*part.mesh_part, hit, i);
+      }
+    }
+    albedo_rgb.r[i] = color.x();
+    albedo_rgb.g[i] = color.y();
+    albedo_rgb.b[i] = color.z();
   }
 }
 
-void Shader::addLamp(const PointLight& lamp, const SurfacePacket& surfaces, ColorPacket& light_rgb, ColorPacket& shine_rgb) const {
-  const Eigen::Vector3f lamp_map = lamp.position_map.cast<float>();
-  RayPacket shadows;
+void Shader::begin(const SurfacePacket& surfaces, Shading& shading) const {
+  findLooks(surfaces, shading.albedo_rgb, shading.gloss);
+  const Eigen::Vector3f& above = config_.lighting.from_above_rgb;
+  const Eigen::Vector3f& below = config_.lighting.from_below_rgb;
   for (std::size_t i = 0; i < kPacketSize; ++i) {
-    shadows.origin_map[i] = surfaces[i].point_map + kShadowOffset_m * surfaces[i].normal_map;
-    shadows.direction_map[i] = lamp_map - shadows.origin_map[i];
-    shadows.near[i] = 0.0F;
-    shadows.far[i] = 0.98F;  // the lamp's own shade does not count
-    shadows.valid[i] = surfaces[i].hit.part >= 0 && shadows.direction_map[i].dot(surfaces[i].normal_map) > 0.0F &&
-                       shadows.direction_map[i].squaredNorm() < lamp.reach_m * lamp.reach_m;
+    const float up = 0.5F + 0.5F * surfaces.normal_z[i];
+    shading.light_rgb.r[i] = below.x() + up * (above.x() - below.x());
+    shading.light_rgb.g[i] = below.y() + up * (above.y() - below.y());
+    shading.light_rgb.b[i] = below.z() + up * (above.z() - below.z());
   }
-  if (std::find(shadows.valid.begin(), shadows.valid.end(), true) == shadows.valid.end()) {
+  shading.shine_rgb = {};
+}
+
+void Shader::addLamp(const PointLight& lamp, const SurfacePacket& surfaces, std::uint8_t lit, Shading& shading) const {
+  if (lit == 0) {
     return;
   }
-  const std::array<bool, kPacketSize> in_shadow =
-      config_.lighting.has_shadows ? embree_.occluded(shadows) : std::array<bool, kPacketSize>{};
+  const Eigen::Vector3f at = lamp.position_map.cast<float>();
+  const float per_reach_sq = 1.0F / (lamp.reach_m * lamp.reach_m);
+  const bool shines = std::any_of(shading.gloss.begin(), shading.gloss.end(), [](float gloss) { return gloss > 0.0F; });
+  Lanes<float> diffuse;
+  Lanes<float> mirrored{};
   for (std::size_t i = 0; i < kPacketSize; ++i) {
-    if (!shadows.valid[i] || in_shadow[i]) {
-      continue;
+    const float x = at.x() - surfaces.x[i];
+    const float y = at.y() - surfaces.y[i];
+    const float z = at.z() - surfaces.z[i];
+    const float measured_sq = x * x + y * y + z * z;
+    const float distance_sq = measured_sq > 0.01F ? measured_sq : 0.01F;
+    const float per_distance = 1.0F / std::sqrt(distance_sq);
+    const float along = x * surfaces.normal_x[i] + y * surfaces.normal_y[i] + z * surfaces.normal_z[i];
+    const float fading = 1.0F - distance_sq * per_reach_sq;
+    const bool is_lit = (static_cast<unsigned>(lit) >> i & 1U) != 0;
+    const float brightness = (is_lit & (along > 0.0F) & (fading > 0.0F)) ? fading * fading / distance_sq : 0.0F;
+    diffuse[i] = brightness * along * per_distance;
+    if (shines) {
+      const float half_x = x * per_distance + surfaces.to_camera_x[i];
+      const float half_y = y * per_distance + surfaces.to_camera_y[i];
+      const float half_z = z * per_distance + surfaces.to_camera_z[i];
+      const float cosine = (half_x * surfaces.normal_x[i] + half_y * surfaces.normal_y[i] + half_z * surfaces.normal_z[i]) /
+                           std::sqrt(half_x * half_x + half_y * half_y + half_z * half_z + 1e-12F);
+      mirrored[i] = brightness * lobe(cosine > 0.0F ? cosine : 0.0F);
     }
-    const float distance_sq = std::max(0.01F, shadows.direction_map[i].squaredNorm());
-    const Eigen::Vector3f to_lamp = shadows.direction_map[i] / std::sqrt(distance_sq);
-    const float fading = 1.0F - distance_sq / (lamp.reach_m * lamp.reach_m);
-    const Eigen::Vector3f brightness_rgb = lamp.intensity_rgb * (fading * fading / distance_sq);
-    light_rgb[i] += brightness_rgb * to_lamp.dot(surfaces[i].normal_map);
-    if (gloss(surfaces[i]) > 0.0F) {
-      const float mirrored = std::max(0.0F, (to_lamp + surfaces[i].to_camera_map).normalized().dot(surfaces[i].normal_map));
-      shine_rgb[i] += brightness_rgb * std::pow(mirrored, kShinePower);
+  }
+  const auto add = [&](const Lanes<float>& amount, ColorPacket& rgb) {
+    for (std::size_t i = 0; i < kPacketSize; ++i) {
+      rgb.r[i] += lamp.intensity_rgb.x() * amount[i];
+      rgb.g[i] += lamp.intensity_rgb.y() * amount[i];
+      rgb.b[i] += lamp.intensity_rgb.z() * amount[i];
     }
+  };
+  add(diffuse, shading.light_rgb);
+  if (shines) {
+    add(mirrored, shading.shine_rgb);
+  }
+}
+
+void Shader::finish(const SurfacePacket& surfaces, const Shading& shading, ColorPacket& colors_rgb) const {
+  const Eigen::Vector3f& background = config_.background_rgb;
+  for (std::size_t i = 0; i < kPacketSize; ++i) {
+    const bool is_hit = surfaces.hit.part[i] >= 0;
+    const float gloss = shading.gloss[i];
+    const auto color = [&](float albedo, float light, float shine, float otherwise) {
+      return is_hit ? albedo * light + gloss * shine : otherwise;
+    };
+    colors_rgb.r[i] = color(shading.albedo_rgb.r[i], shading.light_rgb.r[i], shading.shine_rgb.r[i], background.x());
+    colors_rgb.g[i] = color(shading.albedo_rgb.g[i], shading.light_rgb.g[i], shading.shine_rgb.g[i], background.y());
+    colors_rgb.b[i] = color(shading.albedo_rgb.b[i], shading.light_rgb.b[i], shading.shine_rgb.b[i], background.z());
   }
 }
 

@@ -2,93 +2,110 @@
 #include "core/render/texture.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
+
+#include "core/geometry/tone_curve.h"
 
 namespace oikos::render {
 
 namespace {
 
-constexpr int kEncodingSteps = 4096;
+constexpr float kWhite = 65535.0F;
 
-const std::array<float, 256>& decoding() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = linearOf(static_cast<float>(i) / 255.0F);
+bool isGray(const cv::Mat& texture) {
+  for (int v = 0; v < texture.rows; ++v) {
+    const auto* const row = texture.ptr<cv::Vec3b>(v);
+    if (!std::all_of(row, row + texture.cols, [](const cv::Vec3b& bgr) { return bgr[0] == bgr[1] && bgr[1] == bgr[2]; })) {
+      return false;
     }
-    return values;
-  }();
-  return table;
+  }
+  return true;
 }
 
-/// By the square root of the light, so that the dark end has steps enough.
-const std::array<std::uint8_t, kEncodingSteps + 1>& encoding() {
-  static const std::array<std::uint8_t, kEncodingSteps + 1> table = [] {
-    std::array<std::uint8_t, kEncodingSteps + 1> values{};
-    for (int i = 0; i <= kEncodingSteps; ++i) {
-      const double root = static_cast<double>(i) / kEncodingSteps;
-      const double linear = root * root;
-      const double srgb = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-      values[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255.0 * srgb));
+/// Light in 16 bits: one channel, or RGB and one of padding.
+cv::Mat toLight(const cv::Mat& texture, int channels) {
+  const geometry::ToneCurve& curve = geometry::ToneCurve::instance();
+  cv::Mat light(texture.size(), CV_MAKETYPE(CV_16U, channels), cv::Scalar::all(0));
+  for (int v = 0; v < texture.rows; ++v) {
+    const auto* const from = texture.ptr<cv::Vec3b>(v);
+    auto* const to = light.ptr<std::uint16_t>(v);
+    for (int u = 0; u < texture.cols; ++u) {
+      for (int c = 0; c < std::min(channels, 3); ++c) {
+        to[channels * u + c] = static_cast<std::uint16_t>(std::lround(kWhite * curve.toLight(from[u][2 - c])));
+      }
     }
-    return values;
-  }();
-  return table;
+  }
+  return light;
 }
 
-Eigen::Vector3f linearRgb(const cv::Vec3b& bgr) {
-  const auto& table = decoding();
-  return {table[bgr[2]], table[bgr[1]], table[bgr[0]]};
+/// floor(log2(x)) of a number of at least 1.
+int exponentOf(float x) {
+  return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23U) - 127;
 }
 
-/// Of an index that is at most one step out of range.
-int wrapped(int index, int size) {
-  return index < 0 ? index + size : index >= size ? index - size : index;
+/// The texel at or before a place that is at most one texel out of range, and how far beyond it the place lies.
+struct Lattice {
+  Lattice(float coordinate, int size) {
+    const float within = coordinate - std::floor(coordinate);
+    const float place = within * static_cast<float>(size) + (static_cast<float>(size) - 0.5F);  // one period on: no texel is below 0
+    const auto whole = static_cast<int>(place);
+    share = place - static_cast<float>(whole);
+    index = whole >= size ? whole - size : whole;
+    index = index >= size ? 0 : index;  // rounded up
+  }
+  int index;
+  float share;
+};
+
+Eigen::Array4f texelAt(const std::uint16_t* texel) {
+  return Eigen::Map<const Eigen::Array<std::uint16_t, 4, 1>>(texel).cast<int>().cast<float>();
 }
 
 }  // namespace
 
-float linearOf(std::uint8_t srgb) {
-  return decoding()[srgb];
-}
-
-float linearOf(float srgb) {
-  return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
-}
-
-std::uint8_t srgbOf(float linear) {
-  const float root = std::sqrt(std::clamp(linear, 0.0F, 1.0F));
-  return encoding()[static_cast<std::size_t>(root * kEncodingSteps + 0.5F)];
-}
-
-TexturePyramid::TexturePyramid(const cv::Mat& texture) : levels_{texture} {
-  while (levels_.back().cols > 1 || levels_.back().rows > 1) {
-    const cv::Size half(std::max(1, levels_.back().cols / 2), std::max(1, levels_.back().rows / 2));
+TexturePyramid::TexturePyramid(const cv::Mat& texture) : channels_(isGray(texture) ? 1 : 4) {
+  cv::Mat light = toLight(texture, channels_);
+  addLevel(light);
+  while (light.cols > 1 || light.rows > 1) {
     cv::Mat next;
-    cv::resize(levels_.back(), next, half, 0.0, 0.0, cv::INTER_AREA);
-    levels_.push_back(next);
+    cv::resize(light, next, {std::max(1, light.cols / 2), std::max(1, light.rows / 2)}, 0.0, 0.0, cv::INTER_AREA);
+    light = next;
+    addLevel(light);
   }
 }
 
-Eigen::Vector3f TexturePyramid::at(const Eigen::Vector2f& coordinate, float footprint_px) const {
-  const int level = footprint_px > 1.0F ? std::ilogb(footprint_px * std::numbers::sqrt2_v<float>) : 0;  // the logarithm, rounded
-  const cv::Mat& image = levels_[static_cast<std::size_t>(std::min(level, static_cast<int>(levels_.size()) - 1))];
-  const float x = (coordinate.x() - std::floor(coordinate.x())) * static_cast<float>(image.cols) - 0.5F;
-  const float y = (1.0F - (coordinate.y() - std::floor(coordinate.y()))) * static_cast<float>(image.rows) - 0.5F;
-  const auto left = static_cast<int>(std::floor(x));
-  const auto top = static_cast<int>(std::floor(y));
-  const float right_share = x - static_cast<float>(left);
-  const float lower_share = y - static_cast<float>(top);
-  const auto* const upper = image.ptr<cv::Vec3b>(wrapped(top, image.rows));
-  const auto* const lower = image.ptr<cv::Vec3b>(wrapped(top + 1, image.rows));
-  const int left_column = wrapped(left, image.cols);
-  const int right_column = wrapped(left + 1, image.cols);
-  const Eigen::Vector3f above = (1.0F - right_share) * linearRgb(upper[left_column]) + right_share * linearRgb(upper[right_column]);
-  const Eigen::Vector3f below = (1.0F - right_share) * linearRgb(lower[left_column]) + right_share * linearRgb(lower[right_column]);
-  return (1.0F - lower_share) * above + lower_share * below;
+void TexturePyramid::addLevel(const cv::Mat& light) {
+  cv::Mat padded;
+  cv::copyMakeBorder(light, padded, 0, 1, 0, 1, cv::BORDER_WRAP);
+  const auto* const first = padded.ptr<std::uint16_t>();
+  levels_.push_back({light.cols, light.rows, {first, first + padded.total() * static_cast<std::size_t>(channels_)}});
+}
+
+Eigen::Array3f TexturePyramid::at(const Eigen::Vector2f& coordinate, float footprint_px) const {
+  constexpr float kSqrt2 = 1.41421356F;
+  const int wanted = footprint_px > 1.0F ? exponentOf(footprint_px * kSqrt2) : 0;  // the logarithm, rounded
+  const Level& level = levels_[static_cast<std::size_t>(std::min(wanted, static_cast<int>(levels_.size()) - 1))];
+  const Lattice column(coordinate.x(), level.width);
+  const Lattice row(1.0F - coordinate.y(), level.height);
+  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(level.width + 1) * channels_;
+  const std::uint16_t* const upper = level.texels.data() + row.index * stride + static_cast<std::ptrdiff_t>(column.index) * channels_;
+  const std::uint16_t* const lower = upper + stride;
+  if (channels_ == 1) {
+    const auto mix = [&](const std::uint16_t* texel) {
+      const auto left = static_cast<float>(texel[0]);
+      return left + column.share * (static_cast<float>(texel[1]) - left);
+    };
+    const float above = mix(upper);
+    return Eigen::Array3f::Constant((above + row.share * (mix(lower) - above)) * (1.0F / kWhite));
+  }
+  const auto mix = [&](const std::uint16_t* texel) -> Eigen::Array4f {
+    const Eigen::Array4f left = texelAt(texel);
+    return left + column.share * (texelAt(texel + 4) - left);
+  };
+  const Eigen::Array4f above = mix(upper);
+  return ((above + row.share * (mix(lower) - above)) * (1.0F / kWhite)).head<3>();
 }
 
 }  // namespace oikos::render

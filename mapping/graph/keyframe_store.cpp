@@ -18,6 +18,7 @@
 #include "core/geometry/pose_numbers.h"
 #include "core/recording/depth_png.h"
 #include "core/recording/image_codec.h"
+#include "core/recording/png_encoder.h"
 
 namespace oikos::mapping {
 
@@ -67,7 +68,7 @@ std::vector<unsigned char> encodeDepth(const cv::Mat& depth_m) {
       out[x] = value > 0.0 && value < 65535.0 ? static_cast<std::uint16_t>(std::lround(value)) : std::uint16_t{0};
     }
   }
-  return recording::encodePng(units);
+  return recording::encodePng(units, 1);
 }
 
 std::vector<unsigned char> encodeFeatures(const Features& features) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/recording/image_codec.h"
+#include "core/recording/png_encoder.h"
 #include "mapping/report/html.h"
 #include "mapping/report/text.h"
 
@@ -98,7 +98,7 @@ std::string pngOf(const cv::Mat& cells) {
       }
     }
   }
-  const std::vector<std::uint8_t> bytes = recording::encodePng(picture);
+  const std::vector<std::uint8_t> bytes = recording::encodePng(picture, 9);
   return {bytes.begin(), bytes.end()};
 }
 

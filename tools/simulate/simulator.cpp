@@ -3,21 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 
 #include "core/base/atomic_file.h"
 #include "core/base/number_text.h"
-#include "core/base/parallel.h"
-#include "core/base/posix_file.h"
 #include "core/model/primitives.h"
-#include "core/recording/image_codec.h"
-#include "core/recording/png_encoder.h"
 #include "core/recording/trajectory.h"
 #include "semantic/xml/home_reader.h"
 #include "semantic/xml/home_writer.h"
 #include "tools/simulate/dice.h"
+#include "tools/simulate/frame_writer.h"
 #include "tools/simulate/home_change.h"
 #include "tools/simulate/rig.h"
 #include "tools/simulate/scene_script.h"
@@ -100,7 +96,8 @@ class Simulation {
         believed_(semantic::getHome(semantic::readHome(home_folder_ / "home.xml"), home_folder_ / "home.xml")),
         home_(makeTrueHome(believed_, script_.belief, job.seed)),
         path_(pathOf(script_)),
-        nominal_(nominalCalibration(script_)) {
+        nominal_(nominalCalibration(script_)),
+        writer_(script_.camera.jpeg_quality, job.threads) {
     for (const std::string& text : script_.changes) {
       changes_.push_back(*parseHomeChange(text));
     }
@@ -141,6 +138,7 @@ class Simulation {
       truth.noteObjects(world, shot, time_s);
       write(shot, time_s);
     }
+    writer_.finish();
     writeLists();
     truth.write(job_.folder / "truth");
     summary_.duration_s = end_s;
@@ -200,26 +198,11 @@ class Simulation {
     const bool is_jpeg = script_.camera.jpeg_quality > 0;
     const std::string color_file = "rgb/" + stampText(time_s) + (is_jpeg ? ".jpg" : ".png");
     const std::string depth_file = "depth/" + stampText(depth_s) + ".png";
-    base::parallelFor(2, job_.threads, [&](int which) {
-      const bool is_color = which == 0;
-      const std::vector<unsigned char> bytes = !is_color ? recording::encodePngAtLevel(shot.depth, 1)
-                                               : is_jpeg ? recording::encodeJpeg(shot.color, script_.camera.jpeg_quality)
-                                                         : recording::encodePngAtLevel(shot.color, 1);
-      writeFile(job_.folder / (is_color ? color_file : depth_file), bytes);
-    });
+    writer_.write({job_.folder / color_file, job_.folder / depth_file, shot.color, shot.depth});
     colors_ += stampText(time_s) + " " + color_file + "\n";
     depths_ += stampText(depth_s) + " " + depth_file + "\n";
     T_map_camera_.push_back({toStamp(time_s), shot.T_map_camera});
     ++summary_.frames;
-  }
-
-  static void writeFile(const fs::path& file, const std::vector<unsigned char>& bytes) {
-    std::ofstream stream(file, std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    stream.close();
-    if (!stream) {
-      base::throwErrno("cannot write", file);
-    }
   }
 
   void writeLists() const {
@@ -243,6 +226,7 @@ class Simulation {
   semantic::Home home_;  ///< the true one, in its present state
   const RobotPath path_;
   const camera::Calibration nominal_;
+  FrameWriter writer_;
   std::vector<HomeChange> changes_;
   std::size_t next_change_ = 0;
   std::vector<Walker> walkers_;

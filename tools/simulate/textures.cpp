@@ -18,33 +18,69 @@ int wrapped(int i, int period) {
   return ((i % period) + period) % period;
 }
 
-/// Smooth between the numbers of a lattice; repeats after `periods` cells. x and y in cells; in [0, 1].
-double valueNoise(const Dice& dice, double x, double y, const cv::Size& periods, std::uint64_t use) {
-  const int left = static_cast<int>(std::floor(x));
-  const int top = static_cast<int>(std::floor(y));
-  const auto smooth = [](double t) { return t * t * (3.0 - 2.0 * t); };
-  const double u = smooth(x - left);
-  const double v = smooth(y - top);
-  const auto number = [&](int column, int row) {
-    return dice.at(static_cast<std::uint64_t>(wrapped(column, periods.width)), static_cast<std::uint64_t>(wrapped(row, periods.height)),
-                   use);
-  };
-  return (1.0 - v) * ((1.0 - u) * number(left, top) + u * number(left + 1, top)) +
-         v * ((1.0 - u) * number(left, top + 1) + u * number(left + 1, top + 1));
+double smooth(double t) {
+  return t * t * (3.0 - 2.0 * t);
 }
 
-/// Octaves of it over the unit square, in [0, 1].
-double fractalNoise(const Dice& dice, double x, double y, const cv::Size& cells, std::uint64_t use) {
-  double sum = 0.0;
-  double weight = 0.5;
-  cv::Size periods = cells;
-  for (std::uint64_t octave = 0; octave < 4; ++octave) {
-    sum += weight * valueNoise(dice, x * periods.width, y * periods.height, periods, use * 16 + octave);
-    weight *= 0.5;
-    periods *= 2;
+/// Smooth between the numbers of a lattice of `periods` cells over the unit square, at whose borders it goes on at the other side.
+class ValueNoise {
+ public:
+  ValueNoise(const Dice& dice, const cv::Size& periods, std::uint64_t use)
+      : periods_(periods), stride_(static_cast<std::size_t>(periods.width) + 1) {
+    for (int row = 0; row <= periods.height; ++row) {
+      for (int column = 0; column <= periods.width; ++column) {
+        lattice_.push_back(static_cast<float>(
+            dice.at(static_cast<std::uint64_t>(column % periods.width), static_cast<std::uint64_t>(row % periods.height), use)));
+      }
+    }
   }
-  return sum / 0.9375;
-}
+
+  /// In [0, 1]; x and y in [0, 1).
+  [[nodiscard]] double at(double x, double y) const {
+    const double column = x * periods_.width;
+    const double row = y * periods_.height;
+    const auto left = static_cast<std::size_t>(column);
+    const auto top = static_cast<std::size_t>(row);
+    const double u = smooth(column - static_cast<double>(left));
+    const double v = smooth(row - static_cast<double>(top));
+    const float* const upper = &lattice_[top * stride_ + left];
+    const float* const lower = upper + stride_;
+    const auto mix = [u](const float* numbers) {
+      return (1.0 - u) * static_cast<double>(numbers[0]) + u * static_cast<double>(numbers[1]);
+    };
+    return (1.0 - v) * mix(upper) + v * mix(lower);
+  }
+
+ private:
+  cv::Size periods_;
+  std::size_t stride_;
+  std::vector<float> lattice_;  ///< row by row, the first column and row once more at the end
+};
+
+/// Octaves of it, in [0, 1].
+class FractalNoise {
+ public:
+  FractalNoise(const Dice& dice, const cv::Size& cells, std::uint64_t use) {
+    cv::Size periods = cells;
+    for (std::uint64_t octave = 0; octave < 4; ++octave) {
+      octaves_.emplace_back(dice, periods, use * 16 + octave);
+      periods *= 2;
+    }
+  }
+
+  [[nodiscard]] double at(double x, double y) const {
+    double sum = 0.0;
+    double weight = 0.5;
+    for (const ValueNoise& octave : octaves_) {
+      sum += weight * octave.at(x, y);
+      weight *= 0.5;
+    }
+    return sum / 0.9375;
+  }
+
+ private:
+  std::vector<ValueNoise> octaves_;
+};
 
 template <class Shade>
 cv::Mat paintShades(int size_px, const Shade& shade) {
@@ -60,15 +96,27 @@ cv::Mat paintShades(int size_px, const Shade& shade) {
 }
 
 /// Grain along x: rings that are cut lengthwise.
-double grain(const Dice& dice, double x, double y, std::uint64_t use) {
-  const double bend = fractalNoise(dice, x, y, {2, 3}, use);
-  const double ring = 0.5 + 0.5 * std::sin(2.0 * std::numbers::pi * (6.0 * y + 3.0 * bend));
-  const double fibre = fractalNoise(dice, x, y, {6, 96}, use + 1);
-  return 0.72 + 0.14 * ring + 0.2 * (fibre - 0.5);
-}
+class Grain {
+ public:
+  Grain(const Dice& dice, std::uint64_t use) : bend_(dice, {2, 3}, use), fibre_(dice, {6, 96}, use + 1) {}
+
+  [[nodiscard]] double at(double x, double y) const {
+    const double ring = 0.5 + 0.5 * std::sin(2.0 * std::numbers::pi * (6.0 * y + 3.0 * bend_.at(x, y)));
+    return 0.72 + 0.14 * ring + 0.2 * (fibre_.at(x, y) - 0.5);
+  }
+
+ private:
+  FractalNoise bend_;
+  FractalNoise fibre_;
+};
 
 cv::Mat paintPlanks(const Dice& dice, int size_px) {
   constexpr int kRows = 16;  // of eight metres
+  std::vector<Grain> grain;
+  for (std::uint64_t row = 0; row < kRows; ++row) {
+    grain.emplace_back(dice, 100 + 2 * row);
+  }
+  const ValueNoise knots(dice, {80, 128}, 11);
   return paintShades(size_px, [&](double x, double y) {
     const int row = static_cast<int>(y * kRows);
     const double start = dice.at(static_cast<std::uint64_t>(row), 7);
@@ -78,18 +126,21 @@ cv::Mat paintPlanks(const Dice& dice, int size_px) {
     const double in_plank = along - std::floor(along);
     const bool is_gap = in_row < 0.02 || in_plank < 0.004;
     const double tone = 0.8 + 0.5 * (dice.at(static_cast<std::uint64_t>(row), plank, 8) - 0.5);
-    const double knot = valueNoise(dice, x * 80.0, y * 128.0, {80, 128}, 11) > 0.94 ? 0.35 : 0.0;
-    return is_gap ? 0.3 : tone * grain(dice, x, y, 100 + 2 * static_cast<std::uint64_t>(row)) / 0.85 - knot;
+    const double knot = knots.at(x, y) > 0.94 ? 0.35 : 0.0;
+    return is_gap ? 0.3 : tone * grain[static_cast<std::size_t>(row)].at(x, y) / 0.85 - knot;
   });
 }
 
 cv::Mat paintTiles(const Dice& dice, int size_px) {
   constexpr int kTiles = 24;
+  const FractalNoise joints(dice, {40, 40}, 3);
+  const FractalNoise clouds(dice, {10, 10}, 4);
+  const FractalNoise veins(dice, {7, 7}, 5);
   return paintShades(size_px, [&](double x, double y) {
     const double in_x = x * kTiles - std::floor(x * kTiles);
     const double in_y = y * kTiles - std::floor(y * kTiles);
     if (std::min(in_x, in_y) < 0.03) {
-      return 0.55 + 0.1 * fractalNoise(dice, x, y, {40, 40}, 3);
+      return 0.55 + 0.1 * joints.at(x, y);
     }
     const auto column = static_cast<std::uint64_t>(x * kTiles);
     const auto row = static_cast<std::uint64_t>(y * kTiles);
@@ -99,8 +150,8 @@ cv::Mat paintTiles(const Dice& dice, int size_px) {
     const bool has_ornament = dice.at(column, row, 13) < 0.45;
     const double ring = turn < 0.5 ? off_x + off_y : std::max(off_x, off_y) + 0.6 * off_x * off_y;
     const double ornament = has_ornament && std::abs(ring - 0.15 - 0.25 * turn) < 0.035 ? 0.35 : 0.0;
-    const double cloud = fractalNoise(dice, x, y, {10, 10}, 4);
-    const double vein = std::abs(fractalNoise(dice, x, y, {7, 7}, 5) - 0.5) < 0.012 ? 0.2 : 0.0;
+    const double cloud = clouds.at(x, y);
+    const double vein = std::abs(veins.at(x, y) - 0.5) < 0.012 ? 0.2 : 0.0;
     return 0.82 + 0.14 * (dice.at(column, row, 6) - 0.5) + 0.18 * (cloud - 0.5) - vein - ornament;
   });
 }
@@ -126,9 +177,8 @@ void drawLeaves(const Dice& dice, int cells, std::uint64_t use, cv::Mat& image) 
 }
 
 cv::Mat paintWallpaper(const Dice& dice, int size_px) {
-  cv::Mat image = paintShades(size_px, [&](double x, double y) {
-    return 0.92 + 0.1 * (valueNoise(dice, x * 64.0, y * 64.0, {64, 64}, 2) - 0.5);
-  });
+  const ValueNoise shades(dice, {64, 64}, 2);
+  cv::Mat image = paintShades(size_px, [&](double x, double y) { return 0.92 + 0.1 * (shades.at(x, y) - 0.5); });
   drawLeaves(dice, 60, 2, image);
   drawLeaves(dice, 26, 1, image);
   return image;
@@ -136,12 +186,44 @@ cv::Mat paintWallpaper(const Dice& dice, int size_px) {
 
 /// Strokes of a roller, stains, and the dents and hairs of many years.
 cv::Mat paintPlaster(const Dice& dice, int size_px) {
+  const FractalNoise coarse(dice, {48, 48}, 1);
+  const FractalNoise fine(dice, {320, 320}, 3);
+  const FractalNoise stains(dice, {6, 6}, 2);
+  const ValueNoise dents(dice, {192, 192}, 9);
   return paintShades(size_px, [&](double x, double y) {
-    const double rough = 0.12 * (fractalNoise(dice, x, y, {48, 48}, 1) - 0.5) + 0.12 * (fractalNoise(dice, x, y, {320, 320}, 3) - 0.5);
-    const double stain = 0.14 * (fractalNoise(dice, x, y, {6, 6}, 2) - 0.5);
-    const double dent = valueNoise(dice, x * 192.0, y * 192.0, {192, 192}, 9) > 0.93 ? 0.16 : 0.0;
+    const double rough = 0.12 * (coarse.at(x, y) - 0.5) + 0.12 * (fine.at(x, y) - 0.5);
+    const double stain = 0.14 * (stains.at(x, y) - 0.5);
+    const double dent = dents.at(x, y) > 0.93 ? 0.16 : 0.0;
     return 0.92 + rough + stain - dent;
   });
+}
+
+cv::Mat paintWood(const Dice& dice, int size_px) {
+  const Grain grain(dice, 1);
+  return paintShades(size_px, [&](double x, double y) { return grain.at(y, x); });
+}
+
+cv::Mat paintFabric(const Dice& dice, int size_px) {
+  const FractalNoise folds(dice, {9, 9}, 1);
+  const FractalNoise threads(dice, {64, 64}, 2);
+  return paintShades(size_px, [&](double x, double y) {
+    const double weave = 0.5 + 0.25 * std::sin(2.0 * std::numbers::pi * 48.0 * x) + 0.25 * std::sin(2.0 * std::numbers::pi * 48.0 * y);
+    return 0.72 + 0.14 * (weave - 0.5) + 0.34 * (folds.at(x, y) - 0.5) + 0.2 * (threads.at(x, y) - 0.5);
+  });
+}
+
+cv::Mat paintStone(const Dice& dice, int size_px) {
+  const FractalNoise clouds(dice, {12, 12}, 1);
+  const ValueNoise specks(dice, {128, 128}, 9);
+  return paintShades(size_px, [&](double x, double y) {
+    const double speck = specks.at(x, y);
+    return 0.75 + 0.4 * (clouds.at(x, y) - 0.5) + (speck > 0.86 ? 0.2 : speck < 0.12 ? -0.3 : 0.0);
+  });
+}
+
+cv::Mat paintBrushedMetal(const Dice& dice, int size_px) {
+  const FractalNoise scratches(dice, {3, 128}, 1);
+  return paintShades(size_px, [&](double x, double y) { return 0.86 + 0.14 * (scratches.at(x, y) - 0.5); });
 }
 
 cv::Scalar colorOf(Dice& dice) {
@@ -199,7 +281,7 @@ cv::Mat makeTexture(TextureKind kind, std::uint64_t seed, int size_px) {
   Dice dice(seed * enumTable(TextureKind{}).size() + static_cast<std::uint64_t>(kind));
   switch (kind) {
     case TextureKind::kWood:
-      return paintShades(size_px, [&](double x, double y) { return grain(dice, y, x, 1); });
+      return paintWood(dice, size_px);
     case TextureKind::kPlanks:
       return paintPlanks(dice, size_px);
     case TextureKind::kTiles:
@@ -209,18 +291,11 @@ cv::Mat makeTexture(TextureKind kind, std::uint64_t seed, int size_px) {
     case TextureKind::kWallpaper:
       return paintWallpaper(dice, size_px);
     case TextureKind::kFabric:
-      return paintShades(size_px, [&](double x, double y) {
-        const double weave = 0.5 + 0.25 * std::sin(2.0 * std::numbers::pi * 48.0 * x) + 0.25 * std::sin(2.0 * std::numbers::pi * 48.0 * y);
-        return 0.72 + 0.14 * (weave - 0.5) + 0.34 * (fractalNoise(dice, x, y, {9, 9}, 1) - 0.5) +
-               0.2 * (fractalNoise(dice, x, y, {64, 64}, 2) - 0.5);
-      });
+      return paintFabric(dice, size_px);
     case TextureKind::kStone:
-      return paintShades(size_px, [&](double x, double y) {
-        const double speck = valueNoise(dice, x * 128.0, y * 128.0, {128, 128}, 9);
-        return 0.75 + 0.4 * (fractalNoise(dice, x, y, {12, 12}, 1) - 0.5) + (speck > 0.86 ? 0.2 : speck < 0.12 ? -0.3 : 0.0);
-      });
+      return paintStone(dice, size_px);
     case TextureKind::kBrushedMetal:
-      return paintShades(size_px, [&](double x, double y) { return 0.86 + 0.14 * (fractalNoise(dice, x, y, {3, 128}, 1) - 0.5); });
+      return paintBrushedMetal(dice, size_px);
     case TextureKind::kPainting:
       return paintPainting(dice, size_px);
     case TextureKind::kPrint:

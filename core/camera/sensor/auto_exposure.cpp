@@ -6,7 +6,7 @@
 
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
-#include "core/camera/sensor/tone_curve.h"
+#include "core/geometry/tone_curve.h"
 
 namespace oikos::camera {
 
@@ -44,7 +44,7 @@ void AutoExposure::observe(double mean_light) {
 
 double measureMeanLight(const cv::Mat& color) {
   OIKOS_CHECK(color.type() == CV_8UC3 && !color.empty());
-  const ToneCurve& curve = ToneCurve::instance();
+  const geometry::ToneCurve& curve = geometry::ToneCurve::instance();
   double sum = 0.0;
   int count = 0;
   for (int v = 0; v < color.rows; v += 4) {

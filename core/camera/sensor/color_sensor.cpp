@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/camera/sensor/hash_noise.h"
-#include "core/camera/sensor/tone_curve.h"
+#include "core/geometry/tone_curve.h"
 
 namespace oikos::camera {
 
@@ -21,7 +21,7 @@ constexpr int kChannels = 4;  // three and one of padding: whole vectors
 
 /// Three or four channels of light to four.
 void fillLight(const cv::Mat& color, int v, float* light) {
-  const ToneCurve& curve = ToneCurve::instance();
+  const geometry::ToneCurve& curve = geometry::ToneCurve::instance();
   const bool is_stored = color.type() == CV_8UC3;
   const auto* bytes = color.ptr<std::uint8_t>(v);
   const auto* floats = color.ptr<float>(v);
@@ -92,7 +92,7 @@ void addNoise(const NoiseLevels& levels, RowScratch& row) {
 }
 
 void storeRow(const RowScratch& row, int width, std::uint8_t* bytes) {
-  const ToneCurve& curve = ToneCurve::instance();
+  const geometry::ToneCurve& curve = geometry::ToneCurve::instance();
   for (int u = 0; u < width; ++u) {
     for (int c = 0; c < 3; ++c) {
       bytes[3 * u + c] = curve.toByte(row.light[static_cast<std::size_t>(kChannels * u + c)]);

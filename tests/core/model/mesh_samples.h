@@ -144,7 +144,7 @@ inline cv::Mat texture() {
 }
 
 inline std::string texturePng() {
-  const auto png = recording::encodePngAtLevel(texture(), 9);
+  const auto png = recording::encodePng(texture(), 9);
   return {png.begin(), png.end()};
 }
 

@@ -12,6 +12,7 @@
 #include "core/base/read_file.h"
 #include "core/recording/depth_png.h"
 #include "core/recording/image_codec.h"
+#include "core/recording/png_encoder.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/synthetic_recording.h"
 #include "tests/support/temporary_folder.h"
@@ -72,14 +73,14 @@ TEST_F(ImageFile, PngOfEveryKindAgreesWithOpenCv) {
 }
 
 TEST_F(ImageFile, WhatIsEncodedIsReadBackByOthers) {
-  const std::vector<unsigned char> depth = encodePng(roughDepth());
+  const std::vector<unsigned char> depth = encodePng(roughDepth(), 1);
   EXPECT_EQ(largestDifference(cv::imdecode(depth, cv::IMREAD_UNCHANGED), roughDepth()), 0.0);
   const std::string bytes(depth.begin(), depth.end());
   EXPECT_EQ(largestDifference(decodeDepthPng(bytes, "depth"), roughDepth()), 0.0);
 
   cv::Mat half_seen(3, 5, CV_8UC4, cv::Scalar(10, 60, 200, 56));
   half_seen.at<cv::Vec4b>(1, 2) = {1, 2, 3, 255};
-  EXPECT_EQ(largestDifference(cv::imdecode(encodePng(half_seen), cv::IMREAD_UNCHANGED), half_seen), 0.0);
+  EXPECT_EQ(largestDifference(cv::imdecode(encodePng(half_seen, 1), cv::IMREAD_UNCHANGED), half_seen), 0.0);
 
   cv::Mat smooth;
   cv::resize(test::tinyColor(2), smooth, cv::Size(64, 48), 0.0, 0.0, cv::INTER_CUBIC);

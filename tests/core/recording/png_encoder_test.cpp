@@ -51,11 +51,11 @@ TEST(PngEncoder, EveryLevelDecodesToTheSamePixels) {
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 7}, {7, 1}, {61, 47}, {128, 3}}) {
     for (int level = 0; level <= 9; ++level) {
       SCOPED_TRACE(testing::Message() << width << " x " << height << ", level " << level);
-      const auto bgr_png = encodePngAtLevel(color(width, height), level);
+      const auto bgr_png = encodePng(color(width, height), level);
       EXPECT_EQ(difference(cv::imdecode(bgr_png, cv::IMREAD_UNCHANGED), color(width, height)), 0.0);
       EXPECT_EQ(difference(decodeColorImage({reinterpret_cast<const char*>(bgr_png.data()), bgr_png.size()}, "c"), color(width, height)),
                 0.0);
-      const auto depth_png = encodePngAtLevel(depth(width, height), level);
+      const auto depth_png = encodePng(depth(width, height), level);
       EXPECT_EQ(difference(cv::imdecode(depth_png, cv::IMREAD_UNCHANGED), depth(width, height)), 0.0);
       EXPECT_EQ(difference(decodeDepthPng({reinterpret_cast<const char*>(depth_png.data()), depth_png.size()}, "d"), depth(width, height)),
                 0.0);
@@ -63,22 +63,36 @@ TEST(PngEncoder, EveryLevelDecodesToTheSamePixels) {
   }
 }
 
+TEST(PngEncoder, KeepsTransparency) {
+  cv::Mat image(23, 31, CV_8UC4);
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      const std::uint32_t hash = hashOf(u, v);
+      image.at<cv::Vec4b>(v, u) = {static_cast<std::uint8_t>(hash), static_cast<std::uint8_t>(7 * u), static_cast<std::uint8_t>(5 * v),
+                                   static_cast<std::uint8_t>(hash >> 24U)};
+    }
+  }
+  for (const int level : {0, 1, 9}) {
+    EXPECT_EQ(difference(cv::imdecode(encodePng(image, level), cv::IMREAD_UNCHANGED), image), 0.0) << level;
+  }
+}
+
 TEST(PngEncoder, APartOfAPictureIsWrittenAsThatPart) {
   const cv::Mat part = color(61, 47)(cv::Rect(5, 6, 20, 10));
-  EXPECT_EQ(difference(cv::imdecode(encodePngAtLevel(part, 6), cv::IMREAD_UNCHANGED), part), 0.0);
+  EXPECT_EQ(difference(cv::imdecode(encodePng(part, 6), cv::IMREAD_UNCHANGED), part), 0.0);
 }
 
 TEST(PngEncoder, HigherLevelsAreSmaller) {
   const cv::Mat image = color(320, 240);
-  EXPECT_GT(encodePngAtLevel(image, 0).size(), 3U * 320U * 240U);
-  EXPECT_LT(encodePngAtLevel(image, 1).size(), encodePngAtLevel(image, 0).size() / 2);
-  EXPECT_LT(encodePngAtLevel(image, 9).size(), encodePngAtLevel(image, 1).size());
+  EXPECT_GT(encodePng(image, 0).size(), 3U * 320U * 240U);
+  EXPECT_LT(encodePng(image, 1).size(), encodePng(image, 0).size() / 2);
+  EXPECT_LT(encodePng(image, 9).size(), encodePng(image, 1).size());
 }
 
 TEST(PngEncoder, OtherPixelsAndLevelsAreABug) {
-  EXPECT_THROW(static_cast<void>(encodePngAtLevel(cv::Mat(2, 2, CV_8UC4), 6)), base::ContractViolation);
-  EXPECT_THROW(static_cast<void>(encodePngAtLevel(cv::Mat(), 6)), base::ContractViolation);
-  EXPECT_THROW(static_cast<void>(encodePngAtLevel(color(2, 2), 10)), base::ContractViolation);
+  EXPECT_THROW(static_cast<void>(encodePng(cv::Mat(2, 2, CV_8UC2), 6)), base::ContractViolation);
+  EXPECT_THROW(static_cast<void>(encodePng(cv::Mat(), 6)), base::ContractViolation);
+  EXPECT_THROW(static_cast<void>(encodePng(color(2, 2), 10)), base::ContractViolation);
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/geometry/tone_curve.h"
 #include "core/model/primitives.h"
-#include "core/render/texture.h"
 #include "core/render/view.h"
 
 namespace oikos::render {
@@ -28,6 +29,10 @@ Scene sceneOf(const model::TriangleMesh& mesh, double distance_m) {
   return scene;
 }
 
+float linearOf(std::uint8_t byte) {
+  return geometry::ToneCurve::instance().toLight(byte);
+}
+
 ViewConfig colored(const Lighting& lighting) {
   ViewConfig config;
   config.with_color = true;
@@ -47,15 +52,6 @@ model::Material white() {
   return material;
 }
 
-TEST(Srgb, RoundTripsEveryValue) {
-  for (int value = 0; value < 256; ++value) {
-    EXPECT_EQ(srgbOf(linearOf(static_cast<std::uint8_t>(value))), value);
-  }
-  EXPECT_EQ(srgbOf(2.0F), 255);
-  EXPECT_EQ(srgbOf(-1.0F), 0);
-  EXPECT_EQ(srgbOf(0.2122F), 127);  // half of the code is a fifth of the light
-}
-
 TEST(Shading, ATextureStandsUpright) {
   model::Material material = white();
   material.texture = cv::Mat(64, 64, CV_8UC3);
@@ -73,19 +69,19 @@ TEST(Shading, ATextureStandsUpright) {
   EXPECT_EQ(color.at<cv::Vec3b>(24, 2), cv::Vec3b(0, 0, 0));  // beside it
 }
 
-TEST(Shading, FineTextureFarAwayIsItsMean) {
+TEST(Shading, FineTextureFarAwayIsTheMeanOfItsLight) {
   model::Material material = white();
   material.texture = cv::Mat(256, 256, CV_8UC3);
   for (int v = 0; v < 256; ++v) {
     for (int u = 0; u < 256; ++u) {
-      material.texture.at<cv::Vec3b>(v, u) = (u + v) % 2 == 0 ? cv::Vec3b(200, 200, 200) : cv::Vec3b(0, 0, 0);
+      material.texture.at<cv::Vec3b>(v, u) = (u + v) % 2 == 0 ? cv::Vec3b(255, 255, 255) : cv::Vec3b(0, 0, 0);
     }
   }
   Scene scene = sceneOf(makeScreen(material), 2.6);
   scene.commit();
   const cv::Mat color = renderView(scene, CameraRays(kCamera), {}, colored(evenLight())).color;
   for (int u = 16; u < 48; ++u) {
-    EXPECT_NEAR(color.at<cv::Vec3b>(20, u)[0], 100, 4);
+    EXPECT_NEAR(linearOf(color.at<cv::Vec3b>(20, u)[0]), 0.5, 0.01);
   }
 }
 
@@ -125,6 +121,59 @@ TEST(Shading, WhatStandsBeforeALampThrowsItsShadow) {
   EXPECT_GT(linearOf(renderView(scene, rays, {}, colored(lighting)).color.at<cv::Vec3b>(shaded.y, shaded.x + 12)[0]), 0.3);
   lighting.has_shadows = false;
   EXPECT_GT(linearOf(renderView(scene, rays, {}, colored(lighting)).color.at<cv::Vec3b>(shaded)[0]), 0.3);
+}
+
+/// Whether a straight way from a to b goes through a box.
+bool isBlocked(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::AlignedBox3d& box) {
+  double enter = 0.0;
+  double leave = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double first = (box.min()[axis] - a[axis]) / (b[axis] - a[axis]);
+    const double second = (box.max()[axis] - a[axis]) / (b[axis] - a[axis]);
+    enter = std::max(enter, std::min(first, second));
+    leave = std::min(leave, std::max(first, second));
+  }
+  return enter < leave;
+}
+
+/// Bars of many widths before a lamp: what is rendered with few rays is what each pixel's own ray finds.
+TEST(Shading, ShadowsOfBarsLieWhereGeometryPutsThem) {
+  const camera::PinholeCamera camera{.width = 320, .height = 240, .fx = 300.0, .fy = 300.0, .cx = 159.5, .cy = 119.5};
+  Scene scene = sceneOf(makeScreen(white()), 3.0);
+  const Eigen::Vector3d lamp_map(0.11, -2.3, 1.07);
+  std::vector<Eigen::AlignedBox3d> bars;
+  for (int i = 0; i < 6; ++i) {
+    const double width_m = 0.008 * (i + 1);
+    const Eigen::Vector3d middle_map(-0.35 + 0.13 * i, -1.63, 2.0);  // above what the camera sees
+    const Eigen::Vector3d half(0.5 * width_m, 0.3, 0.01);
+    bars.emplace_back(middle_map - half, middle_map + half);
+    scene.add(std::make_shared<const model::TriangleMesh>(model::makeBox((2.0 * half).cast<float>())),
+              Eigen::Isometry3d(Eigen::Translation3d(middle_map)));
+  }
+  scene.commit();
+  Lighting lighting;
+  lighting.from_above_rgb.setZero();
+  lighting.from_below_rgb.setZero();
+  lighting.lamps = {{lamp_map, Eigen::Vector3f::Constant(5.0F)}};
+  const View view = renderView(scene, CameraRays(camera), {}, colored(lighting));
+  const auto isShaded = [&](double u, double v) {
+    return std::any_of(bars.begin(), bars.end(), [&](const auto& bar) { return isBlocked(3.0 * camera.ray(u, v), lamp_map, bar); });
+  };
+  int shaded = 0;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const bool here = isShaded(u, v);
+      const bool is_border =
+          isShaded(u - 0.1, v) != here || isShaded(u + 0.1, v) != here || isShaded(u, v - 0.1) != here || isShaded(u, v + 0.1) != here;
+      const double x = 3.0 * camera.ray(u, v).x();
+      const double y = 3.0 * camera.ray(u, v).y();
+      if (std::max(std::abs(x), std::abs(y)) < 0.98 && !is_border) {
+        ASSERT_EQ(view.color.at<cv::Vec3b>(v, u)[0] == 0, here) << "pixel " << u << " " << v;
+        shaded += here ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(shaded, 2000);
 }
 
 TEST(Shading, GlossMirrorsALampOnlyInItsDirection) {

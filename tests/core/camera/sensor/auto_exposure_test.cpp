@@ -8,7 +8,6 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "core/camera/sensor/tone_curve.h"
 #include "tests/support/config_rules_check.h"
 
 namespace oikos::camera {
@@ -83,15 +82,6 @@ TEST(MeanLight, IsTheMeanOfTheLightNotOfTheBytes) {
   EXPECT_NEAR(measureMeanLight(color), 0.5, 1e-6);
   color = cv::Scalar(188, 188, 188);
   EXPECT_NEAR(measureMeanLight(color), 0.5, 0.005);
-}
-
-TEST(ToneCurve, EveryByteComesBack) {
-  const ToneCurve& curve = ToneCurve::instance();
-  for (int byte = 0; byte < 256; ++byte) {
-    EXPECT_EQ(curve.toByte(curve.toLight(static_cast<std::uint8_t>(byte))), byte);
-  }
-  EXPECT_EQ(curve.toByte(-0.1F), 0);
-  EXPECT_EQ(curve.toByte(7.0F), 255);
 }
 
 }  // namespace

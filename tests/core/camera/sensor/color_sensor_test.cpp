@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/base/error.h"
-#include "core/camera/sensor/tone_curve.h"
+#include "core/geometry/tone_curve.h"
 #include "tests/core/camera/sensor/running_moments.h"
 #include "tests/support/config_rules_check.h"
 
@@ -32,7 +32,7 @@ ColorSensorConfig plainSensor() {
 }
 
 double lightAt(const cv::Mat& color, int u, int v) {
-  return static_cast<double>(ToneCurve::instance().toLight(color.at<cv::Vec3b>(v, u)[1]));
+  return static_cast<double>(geometry::ToneCurve::instance().toLight(color.at<cv::Vec3b>(v, u)[1]));
 }
 
 TEST(ColorSensor, RulesOfTheConfiguration) {
@@ -94,7 +94,7 @@ TEST_P(Brightness, RecordedNoiseHasTheModelsDeviation) {
     const cv::Mat recorded = senseColor(evenScene(light), {{0.012 / gain, gain}, {}}, config, {3, 1, 1});
     RunningMoments channels[3];
     RunningMoments between;
-    const ToneCurve& curve = ToneCurve::instance();
+    const geometry::ToneCurve& curve = geometry::ToneCurve::instance();
     for (const cv::Vec3b& pixel : cv::Mat_<cv::Vec3b>(recorded)) {
       for (int c = 0; c < 3; ++c) {
         channels[c].add(static_cast<double>(curve.toLight(pixel[c])) - light);

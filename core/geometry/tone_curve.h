@@ -5,9 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace oikos::camera {
+namespace oikos::geometry {
 
-/// The sRGB curve (IEC 61966-2-1) between stored bytes and light, which is 1 at byte 255. All of a sensor's effects act on light.
+/// The sRGB curve (IEC 61966-2-1) between what a screen or an image file is given and light; black is 0 and white 1 in both.
+[[nodiscard]] float lightOfSrgb(float srgb);
+[[nodiscard]] float srgbOfLight(float light);
+
+/// The same between stored bytes and light, which is 1 at byte 255; from tables. Immutable, so thread-safe.
 class ToneCurve {
  public:
   static const ToneCurve& instance();
@@ -21,9 +25,9 @@ class ToneCurve {
 
  private:
   ToneCurve();
-  static constexpr int kSteps = 4095;  // fine enough that no byte is left out
+  static constexpr int kSteps = 16383;  // the darkest byte is five steps wide
   std::array<float, 256> light_{};
   std::array<std::uint8_t, kSteps + 1> byte_{};
 };
 
-}  // namespace oikos::camera
+}  // namespace oikos::geometry
