@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
@@ -72,11 +73,11 @@ struct Matcher {
 };
 
 struct Noise {
-  Noise(const SensorRun& run, const NoiseField::Shape& shape)
+  Noise(const SensorRun& run, const NoiseField::Shape& shape, int dropout_spacing_px)
       : axial({run, NoiseUse::kAxial}, shape, run.threads),
         across({run, NoiseUse::kLateralAcross}, shape, run.threads),
         down({run, NoiseUse::kLateralDown}, shape, run.threads),
-        signal({run, NoiseUse::kSignal}, shape, run.threads) {}
+        signal({run, NoiseUse::kSignal}, {shape.width, shape.height, dropout_spacing_px}, run.threads) {}
   NoiseField axial, across, down, signal;
 };
 
@@ -166,6 +167,25 @@ void matchRow(const IdealView& view, const Matcher& matcher, const cv::Mat& disp
   }
 }
 
+/// How much of the pattern comes back to each pixel, in the mean over the window that is correlated with it.
+cv::Mat gatherSignals(const IdealView& view, const PinholeCamera& camera, int threads) {
+  cv::Mat signals(view.depth_m.size(), CV_32FC1);
+  base::parallelFor(view.depth_m.rows, threads, [&](int v) {
+    float* signal = signals.ptr<float>(v);
+    fillIncidenceCosines(view.normal_camera, camera, v, signal);
+    const float* depth_m = view.depth_m.ptr<float>(v);
+    const float* reflectivity = view.reflectivity.ptr<float>(v);
+    const float* gloss = view.gloss.ptr<float>(v);
+    for (int u = 0; u < signals.cols; ++u) {
+      const float at = reflectivity[u] * (1.0F - gloss[u]) * signal[u] / (depth_m[u] * depth_m[u]);  // a mirror sends nothing back
+      signal[u] = depth_m[u] > 0.0F ? at : 0.0F;
+    }
+  });
+  cv::Mat means;
+  cv::blur(signals, means, {kMatchWindow_px, kMatchWindow_px}, {-1, -1}, cv::BORDER_REPLICATE);
+  return means;
+}
+
 float pow128(float x) {
   for (int i = 0; i < 7; ++i) {
     x *= x;
@@ -174,9 +194,9 @@ float pow128(float x) {
 }
 
 /// Takes the disparities away where too little of the pattern comes back, or too much.
-void dropUnseen(const IdealView& view, const Kinect1Config& config, int v, RowScratch& row) {
+void dropUnseen(const IdealView& view, const cv::Mat& signals, const Kinect1Config& config, int v, RowScratch& row) {
   const float* depth_m = view.depth_m.ptr<float>(v);
-  const float* reflectivity = view.reflectivity.ptr<float>(v);
+  const float* signal = signals.ptr<float>(v);
   const float* gloss = view.gloss.ptr<float>(v);
   const auto per_signal = static_cast<float>(1.0 / config.min_signal);
   const auto per_cosine = static_cast<float>(1.0 / config.min_cosine);
@@ -186,8 +206,7 @@ void dropUnseen(const IdealView& view, const Kinect1Config& config, int v, RowSc
     const auto i = SmoothWindows::index(u);
     const float cosine = row.cosine[i];
     const float depth_sq = depth_m[u] * depth_m[u];
-    const float signal = reflectivity[u] * (1.0F - gloss[u]) * cosine / depth_sq * per_signal;  // a mirror sends nothing back
-    const float weakest = std::min(signal, cosine * per_cosine);
+    const float weakest = std::min(signal[u] * per_signal, cosine * per_cosine);
     const bool dazzles = gloss[u] * gloss[u] * pow128(cosine) > max_highlight * depth_sq;
     const float threshold = std::max(1.0F + softness * row.signal[i], 0.0F);
     const bool is_seen = weakest > threshold && !dazzles;
@@ -226,7 +245,9 @@ std::vector<std::string> Kinect1Config::validate() const {
   rules.between("agreement_px", agreement_px, 0.1, 2.0).between("min_agreement", min_agreement, 0.01, 1.0);
   rules.between("noise_scale", noise_scale, 0.0, 10.0).between("noise_spacing_px", noise_spacing_px, 1, 32);
   rules.greater("min_signal", min_signal, 0.0).between("min_cosine", min_cosine, 0.01, 1.0);
-  rules.between("dropout_softness", dropout_softness, 0.0, 1.0).greater("max_highlight", max_highlight, 0.0);
+  rules.between("dropout_softness", dropout_softness, 0.0, 1.0)
+      .between("dropout_spacing_px", dropout_spacing_px, 1, 64)
+      .greater("max_highlight", max_highlight, 0.0);
   rules.between("min_range_m", min_range_m, 0.1, 10.0).greater("max_range_m", max_range_m, min_range_m);
   return rules.messages();
 }
@@ -243,7 +264,8 @@ double kinect1LateralSigma_px(double theta_rad) {
 cv::Mat senseKinect1(const IdealView& view, const PinholeCamera& camera, const Kinect1Config& config, const SensorRun& run) {
   OIKOS_CHECK(camera.width > kMatchWindow_px && camera.height > kMatchWindow_px);
   const Matcher matcher(camera, config);
-  const Noise noise(run, {camera.width, camera.height, config.noise_spacing_px});
+  const Noise noise(run, {camera.width, camera.height, config.noise_spacing_px}, config.dropout_spacing_px);
+  const cv::Mat signals = gatherSignals(view, camera, run.threads);
   const cv::Mat disparities = lightScene(view, matcher, run.threads);
   cv::Mat depth_m(view.depth_m.size(), CV_32FC1, cv::Scalar(static_cast<double>(kNoReading)));
   const int bands = (camera.height - 2 * kMatchRadius_px + kBandRows - 1) / kBandRows;
@@ -258,7 +280,7 @@ cv::Mat senseKinect1(const IdealView& view, const PinholeCamera& camera, const K
       fillIncidenceCosines(view.normal_camera, camera, v, row.cosine.data());
       std::transform(row.cosine.begin(), row.cosine.end(), row.steep.begin(), steepSigma);
       matchRow(view, matcher, disparities, v, row);
-      dropUnseen(view, config, v, row);
+      dropUnseen(view, signals, config, v, row);
       measureRow(matcher, row, camera.width, depth_m.ptr<float>(v));
     }
   });

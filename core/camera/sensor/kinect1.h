@@ -18,12 +18,14 @@ struct Kinect1Config {
   double min_agreement = 0.45;       ///< share of the window's pixels that must match together, else no reading
   double noise_scale = 1.0;          ///< of the axial and lateral noise as published; 0: none
   int noise_spacing_px = 3;          ///< neighbours closer than this have similar noise
-  double min_signal = 0.006;         ///< reflectivity * cos(theta) / z² (1/m²) at which half of the readings drop out
-  double min_cosine = 0.17;          ///< cos(theta) at which half of the readings drop out; about 80 degrees
-  double dropout_softness = 0.3;     ///< relative deviation of these two thresholds, from pixel to pixel
-  double max_highlight = 0.02;       ///< gloss² * cos(theta)^128 / z² (1/m²) above which the reflected projector dazzles
-  double min_range_m = 0.5;          ///< nearer surfaces give no reading
-  double max_range_m = 4.5;          ///< farther readings are given as none
+  /// reflectivity * cos(theta) / z² (1/m²), in the mean over the matcher's window, at which half of the readings drop out
+  double min_signal = 0.002;
+  double min_cosine = 0.17;       ///< cos(theta) at which half of the readings drop out; about 80 degrees
+  double dropout_softness = 0.2;  ///< relative deviation of these two thresholds, from place to place
+  int dropout_spacing_px = 9;     ///< places closer than this drop out together
+  double max_highlight = 0.02;    ///< gloss² * cos(theta)^128 / z² (1/m²) above which the reflected projector dazzles
+  double min_range_m = 0.5;       ///< nearer surfaces give no reading
+  double max_range_m = 4.5;       ///< farther readings are given as none
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -36,6 +38,7 @@ struct Kinect1Config {
     visitor("min_signal", min_signal);
     visitor("min_cosine", min_cosine);
     visitor("dropout_softness", dropout_softness);
+    visitor("dropout_spacing_px", dropout_spacing_px);
     visitor("max_highlight", max_highlight);
     visitor("min_range_m", min_range_m);
     visitor("max_range_m", max_range_m);

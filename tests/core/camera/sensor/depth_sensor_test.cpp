@@ -44,6 +44,7 @@ TEST(DepthSensor, RulesOfTheConfiguration) {
                                          {"min_signal", "0", "must be > 0"},
                                          {"min_cosine", "nan", "must be from 0.01 to 1"},
                                          {"dropout_softness", "2", "must be from 0 to 1"},
+                                         {"dropout_spacing_px", "0", "must be from 1 to 64"},
                                          {"max_highlight", "0", "must be > 0"},
                                          {"min_range_m", "0", "must be from 0.1 to 10"},
                                          {"max_range_m", "0.25", "must be > 0.5"}});

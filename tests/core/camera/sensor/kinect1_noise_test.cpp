@@ -130,7 +130,7 @@ TEST(Kinect1Dropout, FollowsTheReflectivity) {
     scene.addPlane(2.0, 0.0, relative_signal * config.min_signal * 4.0);
     const double share = shareOfReadings(scene);
     const double expected = 0.5 * std::erfc(-(relative_signal - 1.0) / config.dropout_softness / std::numbers::sqrt2);
-    const double independent = kFrames * 192.0 * 142.0 / kPixelsPerNumber;
+    const double independent = kFrames * 192.0 * 142.0 / (config.dropout_spacing_px * config.dropout_spacing_px);
     EXPECT_NEAR(share, expected, 5.0 * std::sqrt(0.25 / independent) + 0.003) << relative_signal;
     EXPECT_GT(share, before);
     before = share;
