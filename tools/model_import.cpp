@@ -34,6 +34,7 @@ constexpr const char* kExamples =
     "  oikos model import cupboard.urdf --out models/cupboard.obj\n"
     "  oikos model import --shape \"cabinet width_m=0.8 door_count=2\"\n"
     "  oikos model import --shape \"oven\" --id oven --at \"2 0.3 0 0 0 90\"\n"
+    "  oikos model import --shape \"cup\" --id mug --parent table --at \"0.1 0.2 0.74 0 0 0\"\n"
     "With --id it prints the element of home.xml for the piece. The shapes: oikos model shapes.";
 
 struct ImportOptions {
@@ -273,7 +274,12 @@ void addModelImportCommand(CLI::App& model) {
   command.add_option("--out", options->out, "FILE.obj to write; of several parts each goes to FILE-PART.obj");
   CLI::Option* const id = command.add_option("--id", options->piece.id, "prints the element for home.xml, with this id");
   command.add_option("--type", options->piece.type, "the piece's type in home.xml; that of the shape's kind if not given")->needs(id);
-  command.add_option("--at", options->piece.pose, "its pose in the map: \"X Y Z ROLL PITCH YAW\" (m, deg)")
+  command
+      .add_option("--at", options->piece.pose,
+                  "its pose, \"X Y Z ROLL PITCH YAW\" (m, deg): furniture's in the map, a small object's in --parent")
+      ->needs(id)
+      ->capture_default_str();
+  command.add_option("--parent", options->piece.parent, "of a small object: the id of the piece, part or room that carries it")
       ->needs(id)
       ->capture_default_str();
   setAction(command, [options](const Session& session) { return importModel(*options, session); });

@@ -70,16 +70,34 @@ semantic::LargeObject pieceOf(const semantic::Shape& shape, const PieceText& tex
   return piece;
 }
 
-/// Throws unless a home with this piece alone is in order.
-void checkPiece(const semantic::LargeObject& piece) {
+semantic::SmallObject smallObjectOf(const semantic::Shape& shape, const PieceText& text) {
+  const Eigen::AlignedBox3f bounds = semantic::makeShape(shape, "--shape").parts.front().mesh_part->bounds();
+  semantic::SmallObject object;
+  object.id = {text.id};
+  object.type = text.type;
+  object.parent = text.parent;
+  object.T_parent_object = parsePose(text.pose);
+  object.shape = shape;
+  object.graspable = true;
+  const double middle_m = std::round(500.0 * static_cast<double>(bounds.min().z() + bounds.max().z())) / 1000.0;  // to a millimetre
+  object.grasping_points.push_back({{}, {{0.0, 0.0, middle_m}, Eigen::Vector3d::Zero()}});
+  return object;
+}
+
+/// A home with one room, whose id it is given.
+semantic::Home homeWithRoom(const PieceText& piece, const std::string& room_id) {
   semantic::Home home;
-  home.id = piece.id.value == "home" ? "home-of-it" : "home";
+  home.id = piece.id == "home" || room_id == "home" ? "home-of-it" : "home";
   home.name = "home";
   semantic::Room room;
-  room.id = {piece.id.value == "room" ? "room-of-it" : "room"};
+  room.id = {room_id};
   room.name = "room";
-  room.objects = {piece};
   home.rooms = {room};
+  return home;
+}
+
+/// Throws unless it is in order.
+void checkHome(const semantic::Home& home) {
   for (const semantic::Finding& finding : semantic::readHomeText(semantic::toXml(home), "home.xml").findings) {
     if (finding.severity == semantic::Severity::kError) {
       throw base::Error(base::ErrorCode::kUsage,
@@ -111,8 +129,17 @@ semantic::Shape parseShape(const std::string& text) {
 }
 
 std::string pieceXml(const semantic::Shape& shape, const PieceText& piece) {
+  if (model::isSmallShape(shape.kind)) {
+    const semantic::SmallObject made = smallObjectOf(shape, piece);
+    semantic::Home home = homeWithRoom(piece, piece.parent);
+    home.rooms.front().small_objects = {made};
+    checkHome(home);
+    return semantic::toXml(made);
+  }
   const semantic::LargeObject made = pieceOf(shape, piece);
-  checkPiece(made);
+  semantic::Home home = homeWithRoom(piece, piece.id == "room" ? "room-of-it" : "room");
+  home.rooms.front().objects = {made};
+  checkHome(home);
   return semantic::toXml(made);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A piece of furniture by its dimensions, as an element that can be pasted into home.xml.
+// A piece of furniture or a small object by its dimensions, as an element that can be pasted into home.xml.
 #pragma once
 
 #include <string>
@@ -15,11 +15,12 @@ namespace oikos::tools {
 struct PieceText {
   std::string id;
   std::string type;
-  std::string pose = "0 0 0 0 0 0";  ///< x y z roll pitch yaw (m, deg) in the map
+  std::string pose = "0 0 0 0 0 0";  ///< x y z roll pitch yaw (m, deg): of furniture in the map, of a small object in what carries it
+  std::string parent = "room";       ///< of a small object: the id of the piece, part or room that carries it
 };
 
-/// With its shape, its parts, joints, handles and knobs, all closed, and a parking pose 0.8 m before its front, facing it. Throws
-/// Error{kUsage} with what home.xml would not take.
+/// Of furniture with its shape, its parts, joints, handles and knobs, all closed, and a parking pose 0.8 m before its front, facing it. Of
+/// a small object with its shape and a grasping point in its middle. Throws Error{kUsage} with what home.xml would not take.
 [[nodiscard]] std::string pieceXml(const semantic::Shape& shape, const PieceText& piece);
 
 }  // namespace oikos::tools

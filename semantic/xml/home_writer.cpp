@@ -43,6 +43,15 @@ std::string toXml(const LargeObject& object) {
   return out;
 }
 
+std::string toXml(const SmallObject& object) {
+  XmlNode node;
+  node.name = "smallObject";
+  node.source = &object;
+  std::string out;
+  appendElement(out, node, "");
+  return out;
+}
+
 std::string spliceVerified(std::string_view bytes, const Home& before, const Home& after, const std::string& where) {
   std::string text = spliceXml(bytes, before, after);
   verify(text, after, where);

@@ -15,6 +15,9 @@ namespace oikos::semantic {
 /// The element of one piece, with what it carries, as it would stand in a room.
 [[nodiscard]] std::string toXml(const LargeObject& object);
 
+/// The element of a small object, as it would stand in what carries it or in a room.
+[[nodiscard]] std::string toXml(const SmallObject& object);
+
 /// `bytes`, which readHome reads as `before`, changed so that it reads `after`: only what differs is replaced. Comments, order, quotes and
 /// line breaks of everything else stay; an object that moves takes its own along. `bytes` must be UTF-8 and valid.
 [[nodiscard]] std::string spliceXml(std::string_view bytes, const Home& before, const Home& after);

@@ -80,6 +80,25 @@ TEST(ModelImport, PrintsAnElementThatAHomeTakes) {
   EXPECT_NE(check.out.find("0 errors, 0 warnings"), std::string::npos) << check.out;
 }
 
+TEST(ModelImport, ASmallObjectIsPrintedAsOne) {
+  const ProcessResult cup =
+      runOikos({"model", "import", "--shape", "cup height_m=0.12", "--id", "mug", "--parent", "desk", "--at", "0.1 0.2 0.74 0 0 0"});
+  ASSERT_EQ(cup.exit_code, 0) << cup.err;
+  EXPECT_TRUE(cup.out.starts_with("<smallObject id=\"mug\" type=\"cup\" parent=\"desk\" relation=\"on\" pose=\"0.1 0.2 0.74 0 0 0\""))
+      << cup.out;
+  EXPECT_NE(cup.out.find("<graspingPoint pose=\"0 0 0.06 0 0 0\"/>"), std::string::npos) << cup.out;
+  EXPECT_EQ(cup.out.find("parkingPose"), std::string::npos) << cup.out;
+  const ProcessResult table = runOikos({"model", "import", "--shape", "table", "--id", "desk"});
+  const TemporaryFolder home;
+  (void)home.write("home.xml", homeWith(table.out + cup.out));
+  const ProcessResult check = runOikos({"check", home.path().string()});
+  EXPECT_NE(check.out.find("0 errors, 0 warnings"), std::string::npos) << check.out;
+  for (const std::string kind : {"bowl", "plate", "bottle", "tin", "jar", "box", "carton", "book"}) {
+    const ProcessResult small = runOikos({"model", "import", "--shape", kind, "--id", "it"});
+    EXPECT_TRUE(small.out.starts_with("<smallObject id=\"it\"")) << small.out << small.err;
+  }
+}
+
 TEST(ModelImport, AShapeIsReportedAndWrittenLikeAFile) {
   const TemporaryFolder folder;
   const ProcessResult result = runOikos({"model", "import", "--shape", "drawer_unit drawer_count=2 front_heights_m=0.2 0.4", "--json",

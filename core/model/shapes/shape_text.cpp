@@ -61,6 +61,7 @@ struct ShapeKind {
   std::vector<std::string> (*validate)(std::string_view kind, const Dimensions& dimensions);
   ArticulatedModel (*make)(std::string_view kind, const Dimensions& dimensions);  ///< of dimensions that are valid
   Dimensions (*defaults)();
+  bool is_small;
 };
 
 ArticulatedModel asModel(std::string_view /*kind*/, ArticulatedModel model) {
@@ -99,7 +100,8 @@ Dimensions defaultsOf() {
 
 template <class Shape, auto kMake>
 constexpr ShapeKind kindOf(std::string_view name) {
-  return {name, validateAs<Shape>, makeAs<Shape, kMake>, defaultsOf<Shape>};
+  constexpr bool kIsSmall = std::is_same_v<decltype(kMake(std::declval<const Shape&>())), TriangleMesh>;
+  return {name, validateAs<Shape>, makeAs<Shape, kMake>, defaultsOf<Shape>, kIsSmall};
 }
 
 constexpr auto kKinds = std::to_array<ShapeKind>({
@@ -155,6 +157,11 @@ ArticulatedModel makeShape(const std::string& kind, const Dimensions& dimensions
     throw base::Error(base::ErrorCode::kInput, faults.front(), where);
   }
   return findKind(kind)->make(kind, dimensions);
+}
+
+bool isSmallShape(const std::string& kind) {
+  const ShapeKind* const found = findKind(kind);
+  return found != nullptr && found->is_small;
 }
 
 std::vector<std::string> shapeKinds() {

@@ -21,6 +21,9 @@ using Dimensions = std::vector<std::pair<std::string, std::string>>;
 /// with the first that validateShape finds.
 [[nodiscard]] ArticulatedModel makeShape(const std::string& kind, const Dimensions& dimensions, const std::string& where);
 
+/// Whether a kind is a small object, which furniture carries; an unknown one is none.
+[[nodiscard]] bool isSmallShape(const std::string& kind);
+
 /// Furniture, then small objects.
 [[nodiscard]] std::vector<std::string> shapeKinds();
 
