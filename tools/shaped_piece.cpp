@@ -78,6 +78,7 @@ semantic::SmallObject smallObjectOf(const semantic::Shape& shape, const PieceTex
   object.parent = text.parent;
   object.T_parent_object = parsePose(text.pose);
   object.shape = shape;
+  object.default_places = {{object.parent, object.relation, object.T_parent_object}};
   object.graspable = true;
   const double middle_m = std::round(500.0 * static_cast<double>(bounds.min().z() + bounds.max().z())) / 1000.0;  // to a millimetre
   object.grasping_points.push_back({{}, {{0.0, 0.0, middle_m}, Eigen::Vector3d::Zero()}});
