@@ -346,7 +346,7 @@ Room makeBedroom() {
 
 Room makeBathroom() {
   RoomMaker bathroom("bathroom", "bathroom", rectangle({3.32, 1.02}, {6.0, 3.6}));
-  bathroom.put({"bathtub", "bathtub", "", "box width_m=1.7 depth_m=0.72 height_m=0.56"}, {5.13, 3.23, -90.0});
+  bathroom.put({"bathtub", "bathtub", "", "bathtub depth_m=0.72"}, {5.13, 3.23, -90.0});
   bathroom
       .put({"washstand",
             "cabinet",
