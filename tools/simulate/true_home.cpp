@@ -10,6 +10,7 @@
 #include "semantic/model/home_models.h"
 #include "tools/simulate/dice.h"
 #include "tools/simulate/dressing.h"
+#include "tools/simulate/turned_walls.h"
 
 namespace oikos::simulate {
 
@@ -100,22 +101,50 @@ void raiseWhatStandsOn(LargeObject& object, const Shape& believed) {
   }
 }
 
-void disturb(LargeObject& object, const BeliefSettings& belief, Dice& dice) {
+/// Its place on the floor; what is fixed to a wall stays in that wall's plane.
+void displace(LargeObject& object, const BeliefSettings& belief, bool is_in_wall, Dice& dice) {
+  Eigen::Vector2d shift_m = belief.placement_m * Eigen::Vector2d(dice.gaussian(), dice.gaussian());
+  double turn_rad = belief.placement_deg * kRadPerDeg * dice.gaussian();
+  if (is_in_wall) {
+    const double yaw_rad = object.T_map_object.roll_pitch_yaw_rad.z();
+    const Eigen::Vector2d along(-std::sin(yaw_rad), std::cos(yaw_rad));
+    shift_m = along * along.dot(shift_m);
+    turn_rad = 0.0;
+  }
+  object.T_map_object.position_m.head<2>() += shift_m;
+  object.T_map_object.roll_pitch_yaw_rad.z() += turn_rad;
+}
+
+/// The walls of the home, and of the room that a piece stands in.
+struct Walls {
+  const std::vector<TurnedWall>& of_home;
+  const std::vector<TurnedWall>& of_room;
+};
+
+void disturb(LargeObject& object, const BeliefSettings& belief, const Walls& walls, Dice& dice) {
+  const LargeObject believed = object;
+  const bool is_door = object.type == "door";
+  const bool is_in_wall = is_door || hangsOnWall(object, walls.of_room);
+  if (belief.wall_deg > 0.0) {
+    is_door ? followDoorway(object, walls.of_home) : followWalls(object, walls.of_room);
+  }
   if (object.shape && belief.dimension_m > 0.0) {
-    const Shape believed = **object.shape;
+    const Shape believed_shape = **object.shape;
     remeasure(object.shape->edit(), belief.dimension_m, dice);
     if (object.articulation) {
-      refit(object, believed);
+      refit(object, believed_shape);
     }
-    raiseWhatStandsOn(object, believed);
+    raiseWhatStandsOn(object, believed_shape);
   }
   if (object.articulation) {
     for (Joint& joint : object.articulation->joints) {
       disturbAxis(joint, belief.axis_m, belief.axis_deg, dice);
     }
   }
-  object.T_map_object.position_m.head<2>() += belief.placement_m * Eigen::Vector2d(dice.gaussian(), dice.gaussian());
-  object.T_map_object.roll_pitch_yaw_rad.z() += belief.placement_deg * kRadPerDeg * dice.gaussian();
+  displace(object, belief, is_in_wall, dice);
+  if (!is_door) {
+    keepOutOfWalls(object, believed, walls.of_room);
+  }
 }
 
 /// Each wall turns a little about its middle; corners are where the turned walls meet.
@@ -143,14 +172,21 @@ void tiltWalls(Room& room, double sigma_deg, Dice& dice) {
 
 Home makeTrueHome(const Home& believed, const BeliefSettings& belief, std::uint64_t seed) {
   Home home = believed;
+  std::vector<std::vector<TurnedWall>> of_rooms;
+  std::vector<TurnedWall> of_home;
   for (Room& room : home.rooms) {
-    Dice walls(seed + hashOf(room.id.value));
+    const std::vector<Eigen::Vector2d> outline_map = room.outline_map;
     if (belief.wall_deg > 0.0) {
-      tiltWalls(room, belief.wall_deg, walls);
+      Dice dice(seed + hashOf(room.id.value));
+      tiltWalls(room, belief.wall_deg, dice);
     }
-    for (CopyOnWrite<LargeObject>& object : room.objects) {
+    of_rooms.push_back(turnedWalls(outline_map, room.outline_map));
+    of_home.insert(of_home.end(), of_rooms.back().begin(), of_rooms.back().end());
+  }
+  for (std::size_t i = 0; i < home.rooms.size(); ++i) {
+    for (CopyOnWrite<LargeObject>& object : home.rooms[i].objects) {
       Dice dice(seed + hashOf(object->id.value));
-      disturb(object.edit(), belief, dice);
+      disturb(object.edit(), belief, {of_home, of_rooms[i]}, dice);
     }
   }
   return home;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 
 #include "core/base/number_text.h"
@@ -49,7 +50,10 @@ TEST(TrueHome, ComesFromItsSeed) {
 }
 
 TEST(TrueHome, DimensionsAndPlacesHaveTheirDeviations) {
-  const semantic::Home believed = smallHome();
+  semantic::Home believed = smallHome();
+  for (semantic::Room& room : believed.rooms) {
+    room.outline_map.clear();  // walls would hold what stands beside them
+  }
   std::vector<double> dimensions_m;
   std::vector<double> places_m;
   std::vector<double> turns_rad;
@@ -183,6 +187,64 @@ TEST(TrueHome, WallsTurnAboutTheirMiddles) {
     }
   }
   expectGaussianSample(turns_rad, 0.6 * kRadPerDeg);
+}
+
+/// How far a point lies from a room's wall, into the room; the outline runs counter-clockwise.
+double besideWall(const std::vector<Eigen::Vector2d>& outline, std::size_t wall, const Eigen::Vector2d& point) {
+  const Eigen::Vector2d along = (outline[(wall + 1) % outline.size()] - outline[wall]).normalized();
+  const Eigen::Vector2d from = point - outline[wall];
+  return along.x() * from.y() - along.y() * from.x();
+}
+
+/// A home of two rooms with a wall of 12 cm between them, a door in it, and a picture and a shelf on it.
+semantic::Home homeWithDoor() {
+  return semantic::getHome(semantic::readHomeText(R"(<apartment id="a" name="a" version="1">
+    <room id="east" name="east" outline_m="0.06 -2 4 -2 4 2 0.06 2">
+      <largeArticulatedObject id="door" type="door" pose="0 1 0 0 0 0" movability="fixed" graspable="false">
+        <shape kind="room_door"/><part id="door-body"/><part id="door-door" parent="door-body"/>
+        <joint id="door-door-joint" type="revolute" parent="door-body" child="door-door" origin="0.07 -0.446 1.007 0 0 0" axis="0 0 -1"
+          lower_deg="0" upper_deg="110" value_deg="0"/>
+        <parkingPose pose="1 0 0 0 0 180" default="true"/>
+      </largeArticulatedObject>
+      <largeObject id="picture" type="picture" pose="0.07 -1.4 1.4 0 0 0" movability="fixed" graspable="false">
+        <shape kind="box" width_m="0.6" depth_m="0.02" height_m="0.45"/>
+        <parkingPose pose="1 0 0 0 0 180" default="true"/></largeObject>
+      <largeObject id="block" type="shelf" pose="0.26 -0.5 0 0 0 0" movability="shiftable" graspable="false">
+        <shape kind="box" width_m="0.8" depth_m="0.4" height_m="0.9"/>
+        <parkingPose pose="1 0 0 0 0 180" default="true"/></largeObject>
+    </room>
+    <room id="west" name="west" outline_m="-4 -2 -0.06 -2 -0.06 2 -4 2"/>
+  </apartment>)",
+                                                  "home.xml"),
+                           "home.xml");
+}
+
+TEST(TrueHome, WhatStandsInOrAgainstAWallFollowsIt) {
+  const semantic::Home believed = homeWithDoor();
+  BeliefSettings belief = everythingOff();
+  belief.wall_deg = 2.0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const semantic::Home home = makeTrueHome(believed, belief, seed);
+    const auto& east = home.rooms[0].outline_map;  // its wall 3 is the one between the rooms
+    const auto& west = home.rooms[1].outline_map;  // here it is wall 1
+    const Eigen::Vector2d door = pieceOf(home, "door").T_map_object.position_m.head<2>();
+    EXPECT_NEAR(besideWall(east, 3, door), besideWall(west, 1, door), 3e-3) << seed;  // in the middle between the two
+    const auto cornersOf = [&](const char* id, double depth_m) {
+      const semantic::LargeObject& piece = pieceOf(home, id);
+      const Eigen::Isometry3d T = piece.T_map_object.toIsometry();
+      const double half_m = 0.5 * dimensionOf(piece, "width_m");
+      return std::array{besideWall(east, 3, (T * Eigen::Vector3d(-0.5 * depth_m, half_m, 0.0)).head<2>()),
+                        besideWall(east, 3, (T * Eigen::Vector3d(-0.5 * depth_m, -half_m, 0.0)).head<2>())};
+    };
+    for (const double gap_m : cornersOf("picture", dimensionOf(pieceOf(home, "picture"), "depth_m"))) {
+      EXPECT_GT(gap_m, -1e-6) << seed;  // meshes are single precision
+      EXPECT_LT(gap_m, 0.02) << seed;   // its depth is 5 mm off, four deviations
+    }
+    for (const double gap_m : cornersOf("block", dimensionOf(pieceOf(home, "block"), "depth_m"))) {
+      EXPECT_GT(gap_m, -1e-6) << seed;  // meshes are single precision
+      EXPECT_LT(gap_m, 0.08) << seed;
+    }
+  }
 }
 
 TEST(TrueHome, ACornerWithinAStraightWallStays) {
