@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/base/read_file.h"
+#include "core/recording/depth_png.h"
 #include "core/recording/recording.h"
 #include "core/recording/trajectory.h"
 #include "semantic/xml/home_reader.h"
@@ -172,6 +173,44 @@ TEST_F(Simulate, StatesAndObjectsAreLogged) {
   EXPECT_EQ(count, 8);
   const semantic::Home end = semantic::getHome(semantic::readHome(folder / "truth/home.xml"), folder / "truth/home.xml");
   EXPECT_EQ(end.rooms.at(0).objects.at(0)->articulation->joints.at(0).value, 0.2);
+}
+
+TEST_F(Simulate, PartImagesSayWhatEachPixelShows) {
+  const fs::path folder = recorded("recording", {}, std::string("part_images = true\n") + kScene);
+  std::map<std::string, int> numbers;
+  std::istringstream table(base::readFile(folder / "truth/parts.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "number,id,part");
+  while (std::getline(table, line)) {
+    const std::size_t id = line.find(',') + 1;
+    numbers[line.substr(id, line.find(',', id) - id)] = std::stoi(line);
+  }
+  ASSERT_EQ(numbers.count("cup"), 1U);
+  std::istringstream frames(base::readFile(folder / "truth/objects.jsonl"));
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder / "truth/parts")) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  ASSERT_EQ(files.size(), 8U);
+  for (const fs::path& file : files) {
+    ASSERT_TRUE(std::getline(frames, line));
+    const cv::Mat parts = recording::decodeDepthPng(base::readFile(file), file.string());
+    EXPECT_EQ(cv::countNonZero(parts), 64 * 48) << "a closed room";
+    cv::Rect seen = {0, 0, 0, 0};
+    const cv::Mat is_cup = parts == numbers["cup"];
+    for (int v = 0; v < parts.rows; ++v) {
+      for (int u = 0; u < parts.cols; ++u) {
+        seen = is_cup.at<std::uint8_t>(v, u) != 0 ? seen | cv::Rect(u, v, 1, 1) : seen;
+      }
+    }
+    const Json objects = Json::parse(line)["objects"];
+    ASSERT_EQ(objects.size(), seen.empty() ? 0U : 1U);
+    if (!seen.empty()) {
+      EXPECT_EQ(objects[0]["box_px"], Json::array({seen.x, seen.y, seen.br().x - 1, seen.br().y - 1}));
+    }
+  }
 }
 
 TEST_F(Simulate, TheWrittenSceneMakesTheSameRecording) {

@@ -146,6 +146,7 @@ struct SceneScript {
   double duration_s = 0.0;  ///< 0: until the robot has arrived
   camera::DepthSensorKind sensor = camera::DepthSensorKind::kKinect1;
   std::vector<std::string> changes;  ///< see HomeChange
+  bool part_images = false;          ///< of what each pixel of the colour pictures shows
   std::vector<std::string> walkers;  ///< people who walk through: `FROM_S TO_S X Y X Y`
   CameraSettings camera;
   PathSettings path;
@@ -160,6 +161,7 @@ struct SceneScript {
     visitor("duration_s", duration_s);
     visitor("sensor", sensor);
     visitor("changes", changes);
+    visitor("part_images", part_images);
     visitor("walkers", walkers);
     visitor("camera", camera);
     visitor("path", path);

@@ -121,6 +121,10 @@ class Simulation {
     const camera::Calibration calibration = trueCalibration(nominal_, script_.belief, job_.seed);
     Shooter shooter(shotSettings(calibration));
     TruthLog truth(calibration);
+    if (script_.part_images) {
+      fs::create_directory(job_.folder / "truth" / "parts");
+      TruthLog::writePartNames(world, job_.folder / "truth");
+    }
     const auto frames = static_cast<int>(std::floor(end_s * script_.rate_hz)) + 1;
     Dice dice(job_.seed + 801);
     for (int i = 0; i < frames; ++i) {
@@ -136,6 +140,9 @@ class Simulation {
       }
       const Shot shot = shooter.shoot(world.scene(), path_, time_s - script_.path.stand_s, i);
       truth.noteObjects(world, shot, time_s);
+      if (script_.part_images) {
+        TruthLog::writeParts(shot, job_.folder / "truth" / "parts" / (stampText(time_s) + ".png"));
+      }
       write(shot, time_s);
     }
     writer_.finish();

@@ -8,6 +8,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/number_text.h"
+#include "core/recording/png_encoder.h"
 
 namespace oikos::simulate {
 
@@ -146,6 +147,22 @@ int TruthLog::pixelsAlone(const render::ScenePart& part, const Shot& shot) {
 void TruthLog::write(const std::filesystem::path& folder) const {
   base::writeFileAtomically(folder / "states.csv", states_);
   base::writeFileAtomically(folder / "objects.jsonl", objects_);
+}
+
+void TruthLog::writePartNames(const World& world, const std::filesystem::path& folder) {
+  std::string table = "number,id,part\n";
+  int number = 0;
+  for (const World::PartName& name : world.partNames()) {
+    table += std::to_string(++number) + "," + name.id + "," + name.part + "\n";
+  }
+  base::writeFileAtomically(folder / "parts.csv", table);
+}
+
+void TruthLog::writeParts(const Shot& shot, const std::filesystem::path& file) {
+  cv::Mat numbers;
+  shot.part.convertTo(numbers, CV_16UC1, 1.0, 1.0);
+  const std::vector<unsigned char> png = recording::encodePng(numbers, 1);
+  base::writeFileAtomically(file, std::string(png.begin(), png.end()));
 }
 
 }  // namespace oikos::simulate

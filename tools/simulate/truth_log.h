@@ -12,7 +12,7 @@
 
 namespace oikos::simulate {
 
-/// What was really there, for evaluation: `states.csv` (`t,id,value,unit`) and `objects.jsonl`, a line a frame.
+/// What was really there, for evaluation: `states.csv` (`t,id,value,unit`), `objects.jsonl`, a line a frame, and images of parts.
 class TruthLog {
  public:
   explicit TruthLog(const camera::Calibration& calibration) : camera_(calibration.color), distortion_(calibration.distortion) {}
@@ -22,6 +22,10 @@ class TruthLog {
   /// Which small objects are in the picture, where, and how much of each is not hidden.
   void noteObjects(const World& world, const Shot& shot, double time_s);
   void write(const std::filesystem::path& folder) const;
+  /// `parts.csv` (`number,id,part`): what the numbers in the images of parts mean.
+  static void writePartNames(const World& world, const std::filesystem::path& folder);
+  /// The picture's parts by their numbers, from 1; 0: nothing is there.
+  static void writeParts(const Shot& shot, const std::filesystem::path& file);
 
  private:
   [[nodiscard]] int pixelsAlone(const render::ScenePart& part, const Shot& shot);

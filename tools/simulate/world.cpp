@@ -111,6 +111,9 @@ World::World(const Home& home, const WorldLook& look) {
   });
   for (Draft& draft : drafts) {
     const int number = scene_.add(draft.model, draft.T_map_model, draft.joint_values);
+    for (const model::ModelPart& part : draft.model.parts) {
+      part_names_[number].push_back({draft.id, part.name});
+    }
     if (draft.is_small) {
       small_[draft.id] = {draft.id, number, draft.T_map_model, true};
     } else {
@@ -192,6 +195,15 @@ void World::update(const Home& home) {
   hideTheRest(pieces_);
   hideTheRest(small_);
   scene_.commit();
+}
+
+std::vector<World::PartName> World::partNames() const {
+  std::vector<PartName> names;
+  for (const render::ScenePart& part : scene_.parts()) {
+    const auto of_model = part_names_.find(part.model);
+    names.push_back(of_model == part_names_.end() ? PartName{} : of_model->second[static_cast<std::size_t>(part.part)]);
+  }
+  return names;
 }
 
 std::vector<Eigen::AlignedBox2d> World::footprints() const {

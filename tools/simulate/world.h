@@ -37,6 +37,13 @@ class World {
   render::Scene& scene() { return scene_; }
   [[nodiscard]] const render::Scene& scene() const { return scene_; }
 
+  struct PartName {
+    std::string id;    ///< of the piece or small object; empty: a room's shell, a person, clutter
+    std::string part;  ///< in its model
+  };
+  /// Of the parts of scene(), in their order.
+  [[nodiscard]] std::vector<PartName> partNames() const;
+
   struct SmallPiece {
     std::string id;
     int model = 0;  ///< in the scene
@@ -56,6 +63,7 @@ class World {
   void addRooms(const semantic::Home& home, const WorldLook& look);
 
   render::Scene scene_;
+  std::map<int, std::vector<PartName>> part_names_;  ///< by model, then by part of the model
   std::map<std::string, Piece> pieces_;
   std::map<std::string, SmallPiece> small_;
 };
