@@ -27,18 +27,21 @@ bool isUsable(const AlignResult& result) {
   return result.status != AlignStatus::kNotInView && result.status != AlignStatus::kTooLittleOverlap;
 }
 
-/// Steps from the middle to each start: turns, and shifts across the line of sight.
+/// Steps from the middle to each start: turns, and shifts across the line of sight and along it.
 std::vector<Step> startsAbout(const Motion& motion, const SearchConfig& config) {
   const Eigen::Vector3d sight = motion.pivot_map() - motion.T_map_camera().translation();
   const Eigen::Vector3d ahead = sight.norm() > 0.3 ? sight : Eigen::Vector3d(motion.T_map_camera().linear().col(2));
   const Eigen::Vector2d across = Eigen::Vector2d(-ahead.y(), ahead.x()).normalized();
   std::vector<Step> starts;
-  for (const double shift : {0.0, -0.6, 0.6}) {
-    for (const double turn : {0.0, -0.6, 0.6}) {
-      Step step = Step::Zero(motion.dimension());
-      step.head<2>() = shift * config.range_m * across;
-      step[2] = turn * config.range_deg * std::numbers::pi / 180.0;
-      starts.push_back(step);
+  const Eigen::Vector2d along(across.y(), -across.x());
+  for (const double sideways : {0.0, -0.6, 0.6}) {
+    for (const double farther : {0.0, -0.6, 0.6}) {
+      for (const double turn : {0.0, -0.6, 0.6}) {
+        Step step = Step::Zero(motion.dimension());
+        step.head<2>() = config.range_m * (sideways * across + farther * along);
+        step[2] = turn * config.range_deg * std::numbers::pi / 180.0;
+        starts.push_back(step);
+      }
     }
   }
   return starts;
@@ -57,14 +60,9 @@ class Search {
     if (first.result.status == AlignStatus::kConverged && is_near && first.result.fit >= config_.good_fit) {
       return first.result;
     }
-    std::vector<Hypothesis> found = coarsely(middle);
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Hypothesis& a, const Hypothesis& b) { return scoreOf(a.result) > scoreOf(b.result); });
-    found.resize(std::min(found.size(), static_cast<std::size_t>(config_.best_starts)));
-    AlignConfig fine = config_.align;
-    fine.coarse_iterations = 0;
+    std::vector<Hypothesis> found = screened(middle);
     for (Hypothesis& hypothesis : found) {
-      hypothesis = alignedFrom(hypothesis.state, scan_, fine);
+      hypothesis = alignedFrom(hypothesis.state, scan_, config_.align);
     }
     if (found.empty() || isWithinRange(first)) {
       found.insert(found.begin(), first);
@@ -82,23 +80,30 @@ class Search {
     return hypothesis;
   }
 
-  std::vector<Hypothesis> coarsely(const std::vector<double>& middle) {
-    AlignConfig coarse = config_.align;
-    coarse.fine_iterations = 1;
-    const Scan thin = thinned(scan_, coarse.coarse_thinning);
-    coarse.min_inliers = std::max(6, coarse.min_inliers / (coarse.coarse_thinning * coarse.coarse_thinning));
-    coarse.coarse_thinning = 1;
+  /// The best of all starts after a few steps on very few points.
+  std::vector<Hypothesis> screened(const std::vector<double>& middle) {
+    constexpr int kThinning = 4;
+    AlignConfig quick = config_.align;
+    quick.coarse_iterations = config_.screening_iterations;
+    quick.coarse_thinning = 1;
+    quick.fine_iterations = 1;
+    quick.min_inliers = std::max(6, quick.min_inliers / (kThinning * kThinning));
+    const Scan thin = thinned(scan_, kThinning);
     motion_.restore(middle);
     const std::vector<Step> starts = startsAbout(motion_, config_);
     std::vector<Hypothesis> found;
     for (const Step& start : starts) {
       motion_.restore(middle);
       motion_.apply(start);
-      const Hypothesis hypothesis = alignedFrom(motion_.saved(), thin, coarse);
-      if (isUsable(hypothesis.result) && isWithinRange(hypothesis)) {
+      const Hypothesis hypothesis = alignedFrom(motion_.saved(), thin, quick);
+      const bool is_new = std::none_of(found.begin(), found.end(), [&](const Hypothesis& other) { return isSame(other, hypothesis); });
+      if (isUsable(hypothesis.result) && isWithinRange(hypothesis) && is_new) {
         found.push_back(hypothesis);
       }
     }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Hypothesis& a, const Hypothesis& b) { return scoreOf(a.result) > scoreOf(b.result); });
+    found.resize(std::min(found.size(), static_cast<std::size_t>(config_.best_starts)));
     return found;
   }
 
@@ -147,6 +152,7 @@ std::vector<std::string> SearchConfig::validate() const {
       .between("good_fit", good_fit, 0.0, 1.0)
       .atLeast("near_m", near_m, 0.0)
       .atLeast("near_deg", near_deg, 0.0)
+      .atLeast("screening_iterations", screening_iterations, 1)
       .atLeast("best_starts", best_starts, 1)
       .atLeast("same_m", same_m, 0.0)
       .atLeast("same_deg", same_deg, 0.0)

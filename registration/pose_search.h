@@ -10,13 +10,14 @@ namespace oikos::registration {
 
 struct SearchConfig {
   AlignConfig align;
-  double range_m = 0.30;    ///< how far the pose may be from where it is thought to be, in each direction
-  double range_deg = 15.0;  ///< and how far turned
-  double good_fit = 0.85;   ///< an alignment from the middle that explains so much of the model needs no second start,
-  double near_m = 0.15;     ///< if it did not go farther than this
-  double near_deg = 8.0;    ///< nor turn more: farther off there might be a twin as near
-  int best_starts = 5;      ///< so many of the coarse alignments are refined
-  double same_m = 0.03;     ///< two results nearer than this, and than `same_deg`, are one
+  double range_m = 0.30;         ///< how far the pose may be from where it is thought to be, in each direction
+  double range_deg = 15.0;       ///< and how far turned
+  double good_fit = 0.85;        ///< an alignment from the middle that explains so much of the model needs no second start,
+  double near_m = 0.15;          ///< if it did not go farther than this
+  double near_deg = 8.0;         ///< nor turn more: farther off there might be a twin as near
+  int screening_iterations = 7;  ///< from each start, on very few points
+  int best_starts = 4;           ///< so many of them are gone on with
+  double same_m = 0.03;          ///< two results nearer than this, and than `same_deg`, are one
   double same_deg = 3.0;
   double clear_lead = 0.03;  ///< a fit that is better by less is no better: ambiguous
 
@@ -28,6 +29,7 @@ struct SearchConfig {
     visitor("good_fit", good_fit);
     visitor("near_m", near_m);
     visitor("near_deg", near_deg);
+    visitor("screening_iterations", screening_iterations);
     visitor("best_starts", best_starts);
     visitor("same_m", same_m);
     visitor("same_deg", same_deg);
@@ -36,8 +38,8 @@ struct SearchConfig {
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 
-/// align() from several starts about where `motion` stands, coarsely, and the best of them finely. For planar motion: the starts are
-/// turned, and moved across the line of sight (along it one start reaches far enough). `motion` is left at the best.
+/// align() from where `motion` stands, and unless that explains the scan nearby, from the best of many starts about it: turned, moved
+/// across the line of sight and along it. For planar motion. `motion` is left at the best.
 AlignResult searchPose(Motion& motion, const Scan& scan, const SearchConfig& config);
 
 }  // namespace oikos::registration

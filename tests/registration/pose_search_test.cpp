@@ -106,6 +106,7 @@ TEST(SearchConfig, Rules) {
                                         {"good_fit", "2", "must be from 0 to 1"},
                                         {"near_m", "-1", "must be >= 0"},
                                         {"near_deg", "-1", "must be >= 0"},
+                                        {"screening_iterations", "0", "must be >= 1"},
                                         {"best_starts", "0", "must be >= 1"},
                                         {"same_m", "-1", "must be >= 0"},
                                         {"same_deg", "-1", "must be >= 0"},
