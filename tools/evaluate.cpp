@@ -4,7 +4,6 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "core/metrics/trajectory_error.h"
 #include "core/recording/trajectory.h"
 #include "tools/command.h"
+#include "tools/evaluate_answers.h"
 
 namespace oikos::tools {
 
@@ -22,23 +22,11 @@ namespace {
 
 using base::toFixedText;
 using Json = nlohmann::ordered_json;
-using metrics::ErrorStatistics;
 
 struct Files {
   std::filesystem::path measured;
   std::filesystem::path truth;
 };
-
-double degrees(double angle_rad) {
-  return angle_rad * 180.0 / std::numbers::pi;
-}
-
-template <class Config>
-void requireValid(const Config& config) {
-  if (const auto problems = config.validate(); !problems.empty()) {
-    throw base::Error(base::ErrorCode::kUsage, problems.front());
-  }
-}
 
 template <base::NamedEnum Enum>
 CLI::Option* addEnumOption(CLI::App& command, const std::string& name, Enum& value, const std::string& description) {
@@ -46,20 +34,6 @@ CLI::Option* addEnumOption(CLI::App& command, const std::string& name, Enum& val
   return command.add_option_function<std::string>(name, assign, description)
       ->check(CLI::IsMember(base::enumNames<Enum>()))
       ->default_str(std::string(base::toString(value)));
-}
-
-/// One row of the answer for a person: `rmse 1.23  mean 1.11  median 1.05  max 3.02 cm`.
-std::string row(const ErrorStatistics& statistics, double factor, const std::string& unit) {
-  const auto cell = [factor](const char* name, double value) { return std::string(name) + " " + toFixedText(factor * value, 2) + "  "; };
-  return cell("rmse", statistics.rmse) + cell("mean", statistics.mean) + cell("median", statistics.median) + "max " +
-         toFixedText(factor * statistics.max, 2) + " " + unit;
-}
-
-Json statisticsJson(const ErrorStatistics& statistics, double factor, const std::string& unit) {
-  return {{"rmse_" + unit, factor * statistics.rmse},
-          {"mean_" + unit, factor * statistics.mean},
-          {"median_" + unit, factor * statistics.median},
-          {"max_" + unit, factor * statistics.max}};
 }
 
 // -- oikos evaluate trajectory
@@ -242,9 +216,11 @@ void addMapEvaluation(CLI::App& evaluate) {
 void addEvaluateCommand(CLI::App& root) {
   CLI::App& evaluate = addCommand(root, {"evaluate", "Measures results against truth with the field's metrics.",
                                          "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
-                                         "  oikos evaluate map home/map/cloud.ply scan.ply"});
+                                         "  oikos evaluate map home/map/cloud.ply scan.ply\n"
+                                         "  oikos evaluate tags drive --out tags.txt"});
   addTrajectoryEvaluation(evaluate);
   addMapEvaluation(evaluate);
+  addTagEvaluation(evaluate);
 }
 
 }  // namespace oikos::tools

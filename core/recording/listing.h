@@ -43,6 +43,8 @@ struct ImagePair {
 
 /// TUM RGB-D: `rgb.txt` and `depth.txt`, a line `stamp file` each. Throws Error with file and line.
 [[nodiscard]] bool looksLikeTum(const std::filesystem::path& folder);
+/// The colour images alone, whatever depth there is; without duplicates.
+[[nodiscard]] std::vector<ListedImage> listTumColor(const std::filesystem::path& folder);
 [[nodiscard]] Listing listTum(const std::filesystem::path& folder, std::int64_t max_difference_ns);
 
 /// 7-Scenes: `frame-NNNNNN.color.png` (or .jpg) and `frame-NNNNNN.depth.png`; the stamp is NNNNNN / rate_hz. Throws Error.

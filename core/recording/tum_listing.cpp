@@ -89,6 +89,10 @@ bool looksLikeTum(const fs::path& folder) {
          (fs::is_directory(folder / "rgb") && fs::is_directory(folder / "depth"));
 }
 
+std::vector<ListedImage> listTumColor(const fs::path& folder) {
+  return readList(folder, kColorList).images;
+}
+
 Listing listTum(const fs::path& folder, std::int64_t max_difference_ns) {
   const ImageList color = readList(folder, kColorList);
   const ImageList depth = readList(folder, kDepthList);

@@ -16,7 +16,11 @@ namespace {
 constexpr std::size_t kMostWaiting = 3;
 constexpr int kFastPng = 1;
 
-void writeFile(const std::filesystem::path& file, const std::vector<unsigned char>& bytes) {
+}  // namespace
+
+void writeImage(const std::filesystem::path& file, const cv::Mat& image, int jpeg_quality) {
+  const std::vector<unsigned char> bytes =
+      jpeg_quality > 0 ? recording::encodeJpeg(image, jpeg_quality) : recording::encodePng(image, kFastPng);
   std::ofstream stream(file, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   stream.close();
@@ -24,8 +28,6 @@ void writeFile(const std::filesystem::path& file, const std::vector<unsigned cha
     base::throwErrno("cannot write", file);
   }
 }
-
-}  // namespace
 
 FrameWriter::FrameWriter(int jpeg_quality, int threads) : jpeg_quality_(jpeg_quality) {
   if (threads > 1) {
@@ -97,9 +99,8 @@ void FrameWriter::work() {
 }
 
 void FrameWriter::compress(const FrameFiles& frame) const {
-  writeFile(frame.color_file,
-            jpeg_quality_ > 0 ? recording::encodeJpeg(frame.color, jpeg_quality_) : recording::encodePng(frame.color, kFastPng));
-  writeFile(frame.depth_file, recording::encodePng(frame.depth, kFastPng));
+  writeImage(frame.color_file, frame.color, jpeg_quality_);
+  writeImage(frame.depth_file, frame.depth, 0);
 }
 
 }  // namespace oikos::simulate

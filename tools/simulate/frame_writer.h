@@ -19,6 +19,9 @@ struct FrameFiles {
   cv::Mat depth;  ///< CV_16UC1; the same
 };
 
+/// As JPEG of this quality; 0: as PNG. Throws Error{kIo}.
+void writeImage(const std::filesystem::path& file, const cv::Mat& image, int jpeg_quality);
+
 /// Compresses and writes frames while the next ones are made, a few at most behind. To be used by one thread.
 class FrameWriter {
  public:

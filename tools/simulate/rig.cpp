@@ -108,7 +108,10 @@ std::string toToml(const camera::Calibration& calibration, const std::string& st
     toml << "distortion = " << listOf({d.k1, d.k2, d.p1, d.p2, d.k3}) << '\n';
   }
   toml << "depth_scale = " << base::toText(calibration.depth_scale) << "\nstart = \"" << start
-       << "\"\nrate_hz = " << base::toText(calibration.rate_hz) << "\nT_base_camera = " << listOf(*calibration.T_base_camera) << '\n';
+       << "\"\nrate_hz = " << base::toText(calibration.rate_hz) << '\n';
+  if (calibration.T_base_camera) {
+    toml << "T_base_camera = " << listOf(*calibration.T_base_camera) << '\n';
+  }
   if (calibration.depth) {
     toml << "\n[depth]\n";
     writePinhole(calibration.depth->pinhole, toml);

@@ -10,6 +10,7 @@
 #include "core/base/config.h"
 #include "core/base/config_rules.h"
 #include "core/camera/sensor/depth_sensor.h"
+#include "tools/simulate/ceiling_settings.h"
 #include "tools/simulate/robot_path.h"
 
 namespace oikos::simulate {
@@ -153,6 +154,7 @@ struct SceneScript {
   LightSettings light;
   BeliefSettings belief;
   OdometrySettings odometry;
+  CeilingSettings ceiling_camera;
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -168,6 +170,7 @@ struct SceneScript {
     visitor("light", light);
     visitor("belief", belief);
     visitor("odometry", odometry);
+    visitor("ceiling_camera", ceiling_camera);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
 };

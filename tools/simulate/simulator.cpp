@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "core/base/atomic_file.h"
 #include "core/base/number_text.h"
 #include "core/model/primitives.h"
 #include "core/recording/trajectory.h"
+#include "core/tags/tag_setup.h"
 #include "semantic/xml/home_reader.h"
 #include "semantic/xml/home_writer.h"
+#include "tools/simulate/ceiling_camera.h"
 #include "tools/simulate/dice.h"
 #include "tools/simulate/frame_writer.h"
 #include "tools/simulate/home_change.h"
@@ -44,6 +47,10 @@ fs::path homeOf(const fs::path& script) {
 
 std::string stampText(double time_s) {
   return base::toFixedText(time_s, 6);
+}
+
+const char* extensionOf(int jpeg_quality) {
+  return jpeg_quality > 0 ? ".jpg" : ".png";
 }
 
 std::vector<double> numbersOf(const std::string& text) {
@@ -118,6 +125,7 @@ class Simulation {
       world.add(box.model, box.T_map_model);
     }
     addWalkers(world);
+    addCeilingCamera(world);
     const camera::Calibration calibration = trueCalibration(nominal_, script_.belief, job_.seed);
     Shooter shooter(shotSettings(calibration));
     TruthLog truth(calibration);
@@ -133,6 +141,7 @@ class Simulation {
       truth.noteStates(home_, time_s);
       const FloorPose base = path_.at(time_s - script_.path.stand_s);
       T_map_base_.push_back({toStamp(time_s), base.T_map_base()});
+      watch(world, i);
       base::reportProgress(job_.progress, {"simulating", i + 1, frames});
       if (dice.next() < script_.camera.lost_share) {
         ++summary_.lost_frames;
@@ -187,6 +196,27 @@ class Simulation {
     }
   }
 
+  void addCeilingCamera(World& world) {
+    if (!script_.ceiling_camera.position_m.empty()) {
+      fs::create_directories(job_.folder / "ceiling" / "rgb");
+      ceiling_.emplace(script_.ceiling_camera, lightingOf(script_.light, home_), world.scene());
+    }
+  }
+
+  /// The ceiling camera's picture of a frame, whether or not the robot's own is lost.
+  void watch(World& world, int frame) {
+    constexpr std::uint64_t kNoise = 601;  // another than the robot's camera has
+    if (ceiling_) {
+      const recording::StampedPose& base = T_map_base_.back();
+      const camera::SensorRun run{job_.seed + kNoise, frame, job_.threads};
+      const int quality = script_.ceiling_camera.jpeg_quality;
+      const std::string stamp = stampText(static_cast<double>(base.stamp_ns) / 1e9);
+      const std::string file = "rgb/" + stamp + extensionOf(quality);
+      writeImage(job_.folder / "ceiling" / file, ceiling_->shoot(world.scene(), base.T_map_camera, run), quality);
+      ceiling_pictures_ += stamp + " " + file + "\n";
+    }
+  }
+
   void update(World& world, double time_s) {
     for (; next_change_ < changes_.size() && changes_[next_change_].at_s <= time_s; ++next_change_) {
       apply(changes_[next_change_], home_, job_.script.string(), BeyondLimits::kStop);
@@ -202,8 +232,8 @@ class Simulation {
 
   void write(const Shot& shot, double time_s) {
     const double depth_s = time_s + script_.camera.depth_delay_s;
-    const bool is_jpeg = script_.camera.jpeg_quality > 0;
-    const std::string color_file = "rgb/" + stampText(time_s) + (is_jpeg ? ".jpg" : ".png");
+    const int quality = script_.camera.jpeg_quality;
+    const std::string color_file = "rgb/" + stampText(time_s) + extensionOf(quality);
     const std::string depth_file = "depth/" + stampText(depth_s) + ".png";
     writer_.write({job_.folder / color_file, job_.folder / depth_file, shot.color, shot.depth});
     colors_ += stampText(time_s) + " " + color_file + "\n";
@@ -221,6 +251,11 @@ class Simulation {
       recording::writeTrajectory(makeWheelOdometry(T_map_base_, script_.odometry, job_.seed), job_.folder / "odometry.txt");
       recording::writeTrajectory(makePrior(T_map_base_, script_.odometry, job_.seed), job_.folder / "prior.txt");
     }
+    if (ceiling_) {
+      base::writeFileAtomically(job_.folder / "ceiling" / "rgb.txt", ceiling_pictures_);
+      base::writeFileAtomically(job_.folder / "ceiling" / "camera.toml", toToml(ceiling_->calibration(), script_.start));
+      base::writeFileAtomically(job_.folder / "ceiling" / "tags.toml", base::writeConfig(ceiling_->setup()));
+    }
     base::writeFileAtomically(job_.folder / "truth" / "home.xml", semantic::toXml(home_));
     base::writeFileAtomically(job_.folder / "truth" / "scene.toml",
                               "# oikos simulate --seed " + std::to_string(job_.seed) + "\n" + base::writeConfig(script_));
@@ -237,6 +272,8 @@ class Simulation {
   std::vector<HomeChange> changes_;
   std::size_t next_change_ = 0;
   std::vector<Walker> walkers_;
+  std::optional<CeilingCamera> ceiling_;
+  std::string ceiling_pictures_ = "# stamp file\n";
   std::string colors_ = "# stamp file\n";
   std::string depths_ = "# stamp file\n";
   recording::Trajectory T_map_camera_;
