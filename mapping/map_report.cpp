@@ -24,7 +24,7 @@ RecordingFacts recordingFacts(const MapFacts& facts) {
   return r;
 }
 
-FrameStatus statusOf(const TrackedFrame& frame, bool coasting) {
+FrameStatus statusOf(const TrackedFrame& frame, bool carried) {
   switch (frame.status) {
     case TrackingStatus::kTracked:
     case TrackingStatus::kStart:
@@ -34,7 +34,7 @@ FrameStatus statusOf(const TrackedFrame& frame, bool coasting) {
     case TrackingStatus::kLost:
       break;
   }
-  return coasting ? FrameStatus::kCoasting : FrameStatus::kLost;
+  return carried ? FrameStatus::kCarried : FrameStatus::kLost;
 }
 
 void addFrames(const MapFacts& facts, MapReport& report) {
@@ -47,7 +47,7 @@ void addFrames(const MapFacts& facts, MapReport& report) {
   for (std::size_t i = 0; i < facts.drive.frames.size(); ++i) {
     const TrackedFrame& frame = facts.drive.frames[i];
     FrameFacts f;
-    f.status = statusOf(frame, facts.coasting[i] != 0);
+    f.status = statusOf(frame, facts.carried[i] != 0);
     f.inliers = frame.inliers;
     f.residual_px = frame.inliers == 0 ? std::numeric_limits<double>::quiet_NaN() : frame.rms_px;
     f.is_keyframe = keyframes.contains(frame.frame);

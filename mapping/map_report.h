@@ -18,7 +18,7 @@ struct MapFacts {
   const BackEndResult& optimised;
   const FloorResult& floor;
   const FusedMap& fused;
-  const std::vector<char>& coasting;  ///< one a frame: carried by odometry
+  const std::vector<char>& carried;  ///< one a frame: carried by odometry
   const VolumeConfig& volume;
   bool odometry_without_mount = false;  ///< there is an odometry.txt that could not be used
 };

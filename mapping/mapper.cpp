@@ -125,7 +125,7 @@ class Mapper {
                              run_.progress};
     const std::vector<MotionPrior> priors = motionPriors(odometry_, drive_.graph);
     optimised_ = optimiseDrive(drive_, priors, config_.back_end, tools);
-    coasting_ = carryLostFrames(odometry_, drive_.frames, optimised_.T_world_frame);
+    carried_ = carryLostFrames(odometry_, drive_.frames, optimised_.T_world_frame);
     forgetObservations();
   }
 
@@ -250,7 +250,7 @@ class Mapper {
     writeG2o(drive_.graph, optimised_.believed, folder_ / "graph.g2o");
     base::writeFileAtomically(folder_ / "config.toml", base::writeConfig(config_));
     const MapReport report =
-        makeReport({recording_, statistics_, drive_, optimised_, floor_, fused_, coasting_, config_.volume, odometry_without_mount_});
+        makeReport({recording_, statistics_, drive_, optimised_, floor_, fused_, carried_, config_.volume, odometry_without_mount_});
     base::writeFileAtomically(folder_ / "report.json", reportJson(report));
     base::writeFileAtomically(folder_ / "report.html", reportHtml(report));
     clock_.end();
@@ -269,8 +269,10 @@ class Mapper {
     MapResult result;
     result.frames = static_cast<int>(drive_.frames.size());
     result.skipped_frames = statistics_.unreadable;
-    result.lost_frames = static_cast<int>(
-        std::count_if(drive_.frames.begin(), drive_.frames.end(), [](const TrackedFrame& f) { return f.status == TrackingStatus::kLost; }));
+    result.carried_frames = static_cast<int>(std::count_if(carried_.begin(), carried_.end(), [](char carried) { return carried != 0; }));
+    result.lost_frames = static_cast<int>(std::count_if(drive_.frames.begin(), drive_.frames.end(),
+                                                        [](const TrackedFrame& f) { return f.status == TrackingStatus::kLost; })) -
+                         result.carried_frames;
     result.keyframes =
         static_cast<int>(std::count_if(drive_.graph.nodes.begin(), drive_.graph.nodes.end(), [](const Node& n) { return n.keyframe; }));
     for (std::size_t e = 0; e < drive_.graph.edges.size(); ++e) {
@@ -293,7 +295,7 @@ class Mapper {
   WheelOdometry odometry_;
   bool odometry_without_mount_ = false;
   BackEndResult optimised_;
-  std::vector<char> coasting_;
+  std::vector<char> carried_;
   FloorResult floor_;
   FusedMap fused_;
 };

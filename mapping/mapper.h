@@ -61,6 +61,7 @@ struct [[nodiscard]] MapResult {
   int frames = 0;
   int skipped_frames = 0;  ///< could not be read
   int lost_frames = 0;     ///< have a pose between, or of, those about them
+  int carried_frames = 0;  ///< could not be followed either, but odometry moved them on
   int keyframes = 0;
   int loops = 0;
   int submaps = 0;  ///< parts of the drive that no loop has joined; 1 is what one wants

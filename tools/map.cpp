@@ -95,6 +95,7 @@ void printJson(const Summary& summary) {
       {"frames", result.frames},
       {"skipped_frames", result.skipped_frames},
       {"lost_frames", result.lost_frames},
+      {"carried_frames", result.carried_frames},
       {"keyframes", result.keyframes},
       {"loops", result.loops},
       {"submaps", result.submaps},
@@ -115,6 +116,9 @@ void printText(const Summary& summary) {
   }
   if (result.lost_frames > 0) {
     std::cout << result.lost_frames << " frames were lost and have a pose between those before and after them\n";
+  }
+  if (result.carried_frames > 0) {
+    std::cout << result.carried_frames << " frames could not be followed and were carried on by odometry\n";
   }
   if (result.submaps > 1) {
     std::cout << "the drive fell into " << result.submaps << " parts that no loop has joined\n";

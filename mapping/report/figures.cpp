@@ -34,13 +34,13 @@ void countFrames(const MapReport& report, ReportFigures& figures) {
   for (const FrameFacts& frame : report.frames) {
     figures.tracked += frame.status == FrameStatus::kTracked ? 1 : 0;
     figures.relocalised += frame.status == FrameStatus::kRelocalised ? 1 : 0;
-    figures.coasting += frame.status == FrameStatus::kCoasting ? 1 : 0;
+    figures.carried += frame.status == FrameStatus::kCarried ? 1 : 0;
     figures.lost += frame.status == FrameStatus::kLost ? 1 : 0;
     figures.keyframes += frame.is_keyframe ? 1 : 0;
     if (std::isfinite(frame.residual_px) && frame.inliers > 0) {
       residuals_px.push_back(frame.residual_px);
     }
-    if (frame.status != FrameStatus::kLost) {
+    if (frame.status != FrameStatus::kLost && frame.status != FrameStatus::kCarried) {
       inliers.push_back(frame.inliers);
     }
   }

@@ -12,7 +12,7 @@ struct ReportFigures {
   int frames = 0;
   int tracked = 0;
   int relocalised = 0;
-  int coasting = 0;
+  int carried = 0;  ///< by odometry: they are not lost
   int lost = 0;
   int keyframes = 0;
   int loops_accepted = 0;
@@ -22,7 +22,7 @@ struct ReportFigures {
   double path_m = 0.0;                ///< along the final trajectory
   double largest_correction_m = 0.0;  ///< greatest distance between a frame's place before and after loop closure
   double median_residual_px = 0.0;    ///< over the frames that have one; NaN: none has
-  double median_inliers = 0.0;        ///< over the frames that are not lost
+  double median_inliers = 0.0;        ///< over the frames that are neither lost nor carried
   double free_area_m2 = 0.0;          ///< of the 2D grid
 };
 

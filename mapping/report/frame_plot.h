@@ -17,7 +17,7 @@ struct FramePlot {
 };
 
 /// Inline SVG: the middle value of each stretch of the drive as a line, least to greatest as a band behind it; below it a strip
-/// that shows where tracking was lost, coasting or found again. `report` gives times and states.
+/// that shows where tracking was lost, carried or found again. `report` gives times and states.
 [[nodiscard]] std::string framePlot(const MapReport& report, const FramePlot& plot);
 
 }  // namespace oikos::mapping

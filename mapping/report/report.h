@@ -35,13 +35,13 @@ struct RecordingFacts {
 enum class FrameStatus {
   kTracked,      ///< followed from the frames before
   kRelocalised,  ///< found again after a loss
-  kCoasting,     ///< carried over a short gap by odometry or by the motion so far
+  kCarried,      ///< not followed; moved on by the wheels' odometry from the last frame that was
   kLost,         ///< keeps the last pose
 };
 constexpr auto enumTable(FrameStatus) {
   return std::to_array<base::EnumName<FrameStatus>>({{FrameStatus::kTracked, "tracked"},
                                                      {FrameStatus::kRelocalised, "relocalised"},
-                                                     {FrameStatus::kCoasting, "coasting"},
+                                                     {FrameStatus::kCarried, "carried"},
                                                      {FrameStatus::kLost, "lost"}});
 }
 

@@ -77,7 +77,7 @@ std::string plotsSection(const MapReport& report) {
     residuals.values.push_back(frame.inliers > 0 ? frame.residual_px : std::numeric_limits<double>::quiet_NaN());
   }
   const std::string legend = key("box key-tracked", "tracked") + key("box key-relocalised", "found again") +
-                             key("box key-coasting", "coasting") + key("box key-lost", "lost");
+                             key("box key-carried", "carried by odometry") + key("box key-lost", "lost");
   return section("Tracking, frame by frame", framePlot(report, inliers) + framePlot(report, residuals) + "<div class=\"legend\">\n" +
                                                  legend +
                                                  "</div>\n<p class=\"note\">Line: middle of the frames drawn together; band: least to "
@@ -110,7 +110,7 @@ std::string recordingSection(const RecordingFacts& recording) {
 std::string trackingSection(const MapReport& report, const ReportFigures& figures) {
   return section("Tracking", factTable({{"tracked", countText(figures.tracked)},
                                         {"found again", countText(figures.relocalised)},
-                                        {"coasting", countText(figures.coasting)},
+                                        {"carried by odometry", countText(figures.carried)},
                                         {"lost", countText(figures.lost)},
                                         {"keyframes", countText(figures.keyframes)},
                                         {"pieces, joined of all", countText(report.submaps_joined) + " of " + countText(report.submaps)},

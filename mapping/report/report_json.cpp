@@ -54,7 +54,7 @@ Json trackingJson(const MapReport& report, const ReportFigures& figures) {
   return {{"frames", figures.frames},
           {"tracked", figures.tracked},
           {"relocalised", figures.relocalised},
-          {"coasting", figures.coasting},
+          {"carried", figures.carried},
           {"lost", figures.lost},
           {"keyframes", figures.keyframes},
           {"submaps", report.submaps},

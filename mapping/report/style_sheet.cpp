@@ -7,10 +7,10 @@ std::string_view reportStyleSheet() {
   return R"css(
 :root { color-scheme: light dark;
   --ground: #f4f5f7; --card: #ffffff; --ink: #18202b; --soft: #5b6675; --rule: #e1e5ea; --rule-strong: #c4cbd4;
-  --after: #0b7a6f; --before: #d9822b; --loop: #6554c0; --lost: #c9372c; --good: #1f845a; --care: #b65c02; --coast: #e0a100; --found: #388bff; }
+  --after: #0b7a6f; --before: #d9822b; --loop: #6554c0; --lost: #c9372c; --good: #1f845a; --care: #b65c02; --carried: #e0a100; --found: #388bff; }
 @media (prefers-color-scheme: dark) { :root {
   --ground: #10141a; --card: #181e26; --ink: #e4e9f0; --soft: #98a4b3; --rule: #2a323d; --rule-strong: #465161;
-  --after: #37c2ae; --before: #f0a355; --loop: #a99cf5; --lost: #f87168; --good: #4bce97; --care: #fea362; --coast: #f5cd47; --found: #85b8ff; } }
+  --after: #37c2ae; --before: #f0a355; --loop: #a99cf5; --lost: #f87168; --good: #4bce97; --care: #fea362; --carried: #f5cd47; --found: #85b8ff; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--ground); color: var(--ink);
   font: 15px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif; font-variant-numeric: tabular-nums; }
@@ -41,7 +41,7 @@ section { background: var(--card); border: 1px solid var(--rule); border-radius:
 .key-after { color: var(--after); } .key-before { color: var(--before); } .key-loop { color: var(--loop); } .key-refused { color: var(--soft); }
 .key-start { background: var(--good); } .key-end { background: var(--lost); }
 .key-tracked { background: var(--good); } .key-relocalised { background: var(--found); }
-.key-coasting { background: var(--coast); } .key-lost { background: var(--lost); }
+.key-carried { background: var(--carried); } .key-lost { background: var(--lost); }
 .key-occupied { background: #647080; } .key-free { background: rgba(138, 148, 160, .35); }
 svg { display: block; width: 100%; height: auto; }
 svg path, svg line { fill: none; vector-effect: non-scaling-stroke; stroke-linejoin: round; stroke-linecap: round; }
@@ -59,7 +59,7 @@ svg path, svg line { fill: none; vector-effect: non-scaling-stroke; stroke-linej
 .tick-y { text-anchor: end; } .tick-x { text-anchor: middle; }
 .plot .band { fill: currentColor; opacity: .18; } .plot .line { stroke: currentColor; stroke-width: 1.6; }
 .plot .inliers { color: var(--after); } .plot .residual { color: var(--loop); }
-rect.tracked { fill: var(--good); opacity: .45; } rect.relocalised { fill: var(--found); } rect.coasting { fill: var(--coast); } rect.lost { fill: var(--lost); }
+rect.tracked { fill: var(--good); opacity: .45; } rect.relocalised { fill: var(--found); } rect.carried { fill: var(--carried); } rect.lost { fill: var(--lost); }
 .scroll { overflow-x: auto; }
 table + table { margin-top: 14px; }
 table { border-collapse: collapse; width: 100%; font-size: 14px; }
@@ -79,7 +79,7 @@ th + th:not(.number) { padding-left: 12px; }
 @media (max-width: 640px) { .plot text { font-size: 22px; } .scale-text { font-size: 26px; } section { padding: 16px; } }
 @media print {
   :root { color-scheme: light; --ground: #ffffff; --card: #ffffff; --ink: #000000; --soft: #444444; --rule: #cccccc; --rule-strong: #999999;
-    --after: #0b7a6f; --before: #d9822b; --loop: #6554c0; --lost: #c9372c; --good: #1f845a; --care: #b65c02; --coast: #e0a100; --found: #388bff; }
+    --after: #0b7a6f; --before: #d9822b; --loop: #6554c0; --lost: #c9372c; --good: #1f845a; --care: #b65c02; --carried: #e0a100; --found: #388bff; }
   body { font-size: 11px; } main { max-width: none; padding: 0; }
   section, .figure { break-inside: avoid; border-radius: 6px; } section { padding: 12px 14px; margin-bottom: 10px; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }

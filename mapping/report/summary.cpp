@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kManyLost = 0.20;        ///< share of frames; beyond it the map has holes that nobody knows
 constexpr double kSomeLost = 0.02;        ///< below it, tracking bridges the gaps
+constexpr double kSomeCarried = 0.02;     ///< share of frames; beyond it the wheels' drift is in the map
 constexpr double kManySkipped = 0.05;     ///< share of listed frames
 constexpr double kHighResidual_px = 2.0;  ///< well-calibrated cameras stay below one pixel
 constexpr double kLongPath_m = 5.0;       ///< without a loop, drift over more than this goes unnoticed
@@ -32,10 +33,10 @@ struct Stretch {
 };
 
 /// The longest first; of equally long ones the earlier.
-std::vector<Stretch> lostStretches(const std::vector<FrameFacts>& frames) {
+std::vector<Stretch> stretchesOf(FrameStatus status, const std::vector<FrameFacts>& frames) {
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (frames[i].status != FrameStatus::kLost) {
+    if (frames[i].status != status) {
       continue;
     }
     if (stretches.empty() || stretches.back().end != i) {
@@ -49,12 +50,12 @@ std::vector<Stretch> lostStretches(const std::vector<FrameFacts>& frames) {
 }
 
 /// "at 8.1–10.0 ss, 12.4–12.5 s and elsewhere": the longest few.
-std::string whereLost(const MapReport& report) {
+std::string whereIn(const MapReport& report, FrameStatus status) {
   const auto since_start = [&report](std::size_t frame) {
     const std::int64_t passed_ns = report.trajectory[frame].stamp_ns - report.trajectory.front().stamp_ns;
     return numberText(static_cast<double>(passed_ns) * 1e-9, 1);
   };
-  const std::vector<Stretch> stretches = lostStretches(report.frames);
+  const std::vector<Stretch> stretches = stretchesOf(status, report.frames);
   std::string text;
   for (std::size_t i = 0; i < std::min(kStretchesNamed, stretches.size()); ++i) {
     text += (i == 0 ? "at " : ", ") + since_start(stretches[i].begin) + "–" + since_start(stretches[i].end - 1) + " s";
@@ -76,7 +77,7 @@ void judgeTracking(const MapReport& report, const ReportFigures& figures, Findin
     findings.push_back(
         {weight,
          "The camera was lost in " + countedText(figures.lost, "frame", "frames") + " (" + shareText(figures.lost, figures.frames) + "), " +
-             whereLost(report) + " of the drive; each has a pose between those about it.",
+             whereIn(report, FrameStatus::kLost) + " of the drive; each has a pose between those about it.",
          weight == MapVerdict::kUsable ? "" : "Drive these stretches again, slower, and turn where there is something to see."});
   }
   if (const int apart = report.submaps - report.submaps_joined; apart > 0) {
@@ -85,6 +86,18 @@ void judgeTracking(const MapReport& report, const ReportFigures& figures, Findin
                             (apart == 1 ? "is" : "are") + " missing from it.",
                         "Drive once more through the place where tracking was lost, so that both sides are seen in one go."});
   }
+}
+
+void judgeOdometry(const MapReport& report, const ReportFigures& figures, Findings& findings) {
+  if (figures.carried == 0) {
+    return;
+  }
+  const MapVerdict weight = share(figures.carried, figures.frames) > kSomeCarried ? MapVerdict::kUsableWithCare : MapVerdict::kUsable;
+  findings.push_back({weight,
+                      "The camera could not be followed in " + countedText(figures.carried, "frame", "frames") + " (" +
+                          shareText(figures.carried, figures.frames) + "), " + whereIn(report, FrameStatus::kCarried) +
+                          " of the drive; the wheels' odometry carried them, with its drift.",
+                      weight == MapVerdict::kUsable ? "" : "Drive where there is something to see, or hold the map against a floor plan."});
 }
 
 void judgeLoops(const MapReport& report, const ReportFigures& figures, Findings& findings) {
@@ -154,6 +167,7 @@ std::string headlineOf(MapVerdict verdict) {
 MapSummary summarise(const MapReport& report, const ReportFigures& figures) {
   MapSummary summary;
   judgeTracking(report, figures, summary.findings);
+  judgeOdometry(report, figures, summary.findings);
   judgeLoops(report, figures, summary.findings);
   judgeInput(report, figures, summary.findings);
   std::stable_sort(summary.findings.begin(), summary.findings.end(),

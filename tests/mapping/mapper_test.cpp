@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 #include <string>
@@ -210,6 +211,7 @@ TEST(Mapper, ARecordingInTheDarkIsAMapOfNothing) {
   const Built built(richRecording(shortDrive(12, 0.0, 20.0), sensor));
   EXPECT_EQ(built.result.frames, 12);
   EXPECT_EQ(built.result.lost_frames, 12);
+  EXPECT_EQ(built.result.carried_frames, 0);
   EXPECT_FALSE(built.result.floor_found);
   EXPECT_EQ(built.trajectory().size(), 12U);
 }
@@ -251,6 +253,13 @@ TEST(Mapper, OdometryCarriesTheDriveThroughTheDark) {
   recording.T_odom_base = odometry;
   const Built carried(recording);
   EXPECT_EQ(carried.result.submaps, 1);
+  EXPECT_GT(carried.result.carried_frames, 0);
+  EXPECT_EQ(carried.result.lost_frames, 0);
+  const auto tracking = nlohmann::json::parse(carried.files().at("report.json"))["tracking"];
+  EXPECT_EQ(tracking["carried"], carried.result.carried_frames);
+  EXPECT_EQ(tracking["lost"], 0);
+  EXPECT_EQ(blind.result.carried_frames, 0);
+  EXPECT_EQ(blind.result.lost_frames, carried.result.carried_frames);
   const recording::Trajectory truth = recording.truth();
   const recording::Trajectory poses = carried.trajectory();
   for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -39,6 +39,17 @@ TEST(ReportFigures, FramesWithoutInliersHaveNoResidual) {
   EXPECT_TRUE(std::isnan(figures.median_residual_px));
 }
 
+TEST(ReportFigures, CarriedFramesAreNotLostAndHaveNoInliers) {
+  MapReport report = test::sampleReport();
+  for (std::size_t i = 0; i < 39; ++i) {
+    report.frames[i] = {.status = FrameStatus::kCarried, .inliers = 0, .residual_px = std::numeric_limits<double>::quiet_NaN()};
+  }
+  const ReportFigures figures = figuresOf(report);
+  EXPECT_EQ(figures.carried, 39);
+  EXPECT_EQ(figures.lost, 0);
+  EXPECT_EQ(figures.median_inliers, report.frames[39].inliers);
+}
+
 TEST(ReportFigures, OfNothing) {
   const ReportFigures figures = figuresOf({});
   EXPECT_EQ(figures.frames, 0);

@@ -57,6 +57,22 @@ TEST(MapSummary, LossWeighsByItsShareAndIsNamedByTime) {
   EXPECT_TRUE(mentions(scattered, "at 0.0–0.0 s, 0.2–0.2 s, 0.4–0.4 s and elsewhere of the drive"));
 }
 
+TEST(MapSummary, WhatOdometryCarriedIsNotLostButNeedsCare) {
+  const auto carry = [](std::size_t begin, std::size_t end) {
+    return summaryAfter([=](MapReport& report) {
+      for (std::size_t i = begin; i < end; ++i) {
+        report.frames[i].status = FrameStatus::kCarried;
+      }
+    });
+  };
+  const MapSummary some = carry(10, 20);
+  EXPECT_EQ(some.verdict, MapVerdict::kUsableWithCare);
+  EXPECT_TRUE(mentions(some, "could not be followed in 10 frames (25.0 %), at 1.0–1.9 s of the drive; the wheels' odometry carried them"));
+  EXPECT_FALSE(mentions(some, "lost"));
+  EXPECT_EQ(carry(0, 40).verdict, MapVerdict::kUsableWithCare);
+  EXPECT_TRUE(carry(0, 40).story.starts_with("40 of 40 frames have a place"));
+}
+
 TEST(MapSummary, NothingTrackedIsNotUsable) {
   EXPECT_EQ(summarise({}, figuresOf({})).verdict, MapVerdict::kNotUsable);
   const MapSummary summary = summaryAfter([](MapReport& report) { lose(report, 1, 40); });
