@@ -102,8 +102,16 @@ std::optional<WallLine> fitWall(const Edge& edge, const std::vector<Eigen::Vecto
       return std::nullopt;
     }
   }
+  double from_m = edge.length_m;
+  double to_m = 0.0;
+  for (const Vector2d& point : points) {
+    if (std::abs(normal.dot(point) - offset_m) < config.inlier_m) {
+      from_m = std::min(from_m, point.x());
+      to_m = std::max(to_m, point.x());
+    }
+  }
   const Vector2d normal_map = normal.x() * edge.along + normal.y() * edge.normal;
-  return WallLine{normal_map, offset_m + normal_map.dot(edge.from)};
+  return WallLine{normal_map, offset_m + normal_map.dot(edge.from), from_m, to_m};
 }
 
 /// Along the true normal of wall `a`, from its middle to the line of `b`, both lines as given.
@@ -124,9 +132,10 @@ bool areOpposite(const Edge& a, const Edge& b, double inside_of_a) {
 }
 
 WallLine lineOf(const Edge& edge) {
-  return {edge.normal, edge.normal.dot(edge.from)};
+  return {edge.normal, edge.normal.dot(edge.from), 0.0, edge.length_m};
 }
 
+/// Where wall `a` ends and `b` begins.
 std::optional<Vector2d> findCorner(const std::optional<WallLine>& a, const std::optional<WallLine>& b) {
   constexpr double kLeastTurn = 0.2;  // sine of the angle
   if (!a || !b || std::abs(crossOf(a->normal, b->normal)) < kLeastTurn) {
@@ -143,7 +152,7 @@ std::vector<std::string> RoomShapeConfig::validate() const {
   base::ConfigRules rules;
   rules.greater("search_m", search_m, 0.0).greater("inlier_m", inlier_m, 0.0).atLeast("from_end_m", from_end_m, 0.0);
   rules.atLeast("lowest_m", lowest_m, 0.0).greater("highest_m", highest_m, 0.0);
-  rules.atLeast("min_points", min_points, 2).greater("min_length_m", min_length_m, 0.0);
+  rules.atLeast("min_points", min_points, 2).greater("min_length_m", min_length_m, 0.0).greater("to_corner_m", to_corner_m, 0.0);
   return rules.messages();
 }
 
@@ -161,7 +170,10 @@ RoomShape measureRoom(const std::vector<Vector2d>& outline_map, const std::vecto
   }
   std::vector<std::optional<Vector2d>> corners;
   for (std::size_t i = 0; i < count; ++i) {
-    corners.push_back(findCorner(shape.walls[(i + count - 1) % count], shape.walls[i]));
+    const std::size_t before = (i + count - 1) % count;
+    const bool is_near = shape.walls[before] && shape.walls[before]->to_m > edges[before].length_m - config.to_corner_m && shape.walls[i] &&
+                         shape.walls[i]->from_m < config.to_corner_m;
+    corners.push_back(is_near ? findCorner(shape.walls[before], shape.walls[i]) : std::nullopt);
   }
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {

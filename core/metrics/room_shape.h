@@ -16,6 +16,7 @@ struct RoomShapeConfig {
   double highest_m = 2.3;     ///< above the floor
   int min_points = 200;       ///< fewer: the wall was not seen
   double min_length_m = 0.4;  ///< along the wall, that the points spread over
+  double to_corner_m = 0.7;   ///< at most so far from what was seen of both its walls a corner is measured
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -26,14 +27,17 @@ struct RoomShapeConfig {
     visitor("highest_m", highest_m);
     visitor("min_points", min_points);
     visitor("min_length_m", min_length_m);
+    visitor("to_corner_m", to_corner_m);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 
-/// A wall's line on the floor plan: normal · p = offset_m, the normal of length 1.
+/// A wall's line on the floor plan: normal · p = offset_m, the normal of length 1; `from_m` to `to_m` along the outline's edge were seen.
 struct WallLine {
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
   double offset_m = 0.0;
+  double from_m = 0.0;
+  double to_m = 0.0;
 };
 
 /// One length of a room, truly and in the map.
@@ -49,7 +53,7 @@ struct RoomLength {
 struct RoomShape {
   std::vector<std::optional<WallLine>> walls;  ///< one an edge of the outline; nothing: not seen
   std::vector<RoomLength> between_walls;       ///< opposite ones: parallel to 5 degrees, side by side, facing each other
-  std::vector<RoomLength> between_corners;     ///< all pairs of corners whose two walls were both seen
+  std::vector<RoomLength> between_corners;     ///< all pairs of corners near which both walls were seen
 };
 
 /// How long a room is in a map: each wall is a vertical plane fitted to the points about it, corners are where the planes of neighbouring

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/tags/tag_board.h"
 
-#include "core/base/error.h"
 #include "core/base/config_rules.h"
+#include "core/base/error.h"
 #include "core/tags/tag_family.h"
 
 namespace oikos::tags {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "core/base/error.h"
 #include "core/base/config.h"
 #include "core/base/config_rules.h"
+#include "core/base/error.h"
 #include "core/geometry/pose_numbers.h"
 
 namespace oikos::tags {

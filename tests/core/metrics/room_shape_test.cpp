@@ -101,6 +101,20 @@ TEST(RoomShape, AWallThatWasNotSeenHasNoLength) {
   EXPECT_TRUE(measureRoom(kRoom, {}).between_walls.empty());
 }
 
+TEST(RoomShape, ACornerFarFromWhatWasSeenIsNotMeasured) {
+  Points points = wallPoints(kRoom, 0.0);
+  std::erase_if(points, [](const auto& point) { return point.x() > 3.99F && point.y() > 1.5F; });  // wall 1 ends 1.5 m before corner 2
+  const RoomShape shape = measureRoom(kRoom, points);
+  ASSERT_TRUE(shape.walls[1]);
+  EXPECT_NEAR(shape.walls[1]->to_m, 1.5, 0.02);
+  EXPECT_EQ(shape.between_walls.size(), 2U);
+  for (const RoomLength& length : shape.between_corners) {
+    EXPECT_NE(length.from, 2U);
+    EXPECT_NE(length.to, 2U);
+  }
+  EXPECT_EQ(shape.between_corners.size(), 3U);
+}
+
 TEST(RoomShape, OfAnAngledRoomOnlyFacingWallsAreOpposite) {
   const Outline angled{{0.0, 0.0}, {4.0, 0.0}, {4.0, 2.0}, {2.0, 2.0}, {2.0, 4.0}, {0.0, 4.0}};
   for (const bool is_reversed : {false, true}) {
@@ -126,7 +140,8 @@ TEST(RoomShape, Rules) {
                                            {"lowest_m", "nan", "must be >= 0"},
                                            {"highest_m", "0", "must be > 0"},
                                            {"min_points", "1", "must be >= 2"},
-                                           {"min_length_m", "0", "must be > 0"}});
+                                           {"min_length_m", "0", "must be > 0"},
+                                           {"to_corner_m", "0", "must be > 0"}});
   EXPECT_THROW((void)measureRoom({}, {}), base::ContractViolation);
 }
 
