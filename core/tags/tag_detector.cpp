@@ -10,7 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/base/error.h"
-#include "core/camera/sensor/tone_curve.h"
+#include "core/geometry/tone_curve.h"
 
 namespace oikos::tags {
 
@@ -23,7 +23,7 @@ constexpr int kMostWrongCells = 1;
 cv::Mat toLight(const cv::Mat& gray) {
   double brightest = 0.0;
   cv::minMaxLoc(gray, nullptr, &brightest);
-  const camera::ToneCurve& curve = camera::ToneCurve::instance();
+  const geometry::ToneCurve& curve = geometry::ToneCurve::instance();
   const float full = std::max(curve.toLight(static_cast<std::uint8_t>(brightest)), 1e-3F);
   cv::Mat light(gray.size(), CV_8UC1);
   for (int v = 0; v < gray.rows; ++v) {

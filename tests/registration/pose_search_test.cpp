@@ -70,14 +70,18 @@ TEST(PoseSearch, TwoThatLookAlikeAreAmbiguous) {
   model::ArticulatedModel post;
   post.name = "post";
   post.parts.push_back({"post", box});
+  // Side by side before the camera, each with an edge towards it, so that neither hides the other.
+  const auto post_at = [](double y) {
+    return Eigen::Translation3d(0.0, y, 0.45) * Eigen::AngleAxisd(45.0 * kDegree, Eigen::Vector3d::UnitZ());
+  };
   render::Scene real;
-  real.add(box, Eigen::Isometry3d(Eigen::Translation3d(0.0, -0.2, 0.45)));
-  real.add(box, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.2, 0.45)));
+  real.add(box, Eigen::Isometry3d(post_at(-0.2)));
+  real.add(box, Eigen::Isometry3d(post_at(0.2)));
   real.commit();
-  Eigen::Isometry3d T_map_camera = test::cameraBefore(Eigen::Isometry3d::Identity(), 1.6, 40.0 * kDegree, 0.5);
+  const Eigen::Isometry3d T_map_camera = test::cameraBefore(Eigen::Isometry3d::Identity(), 1.6, 0.0, 0.5);
   const cv::Mat depth_m = test::viewOf(real, test::kinectCamera(), T_map_camera).depth_m;
   render::Scene scene;
-  const Eigen::Isometry3d T_map_between(Eigen::Translation3d(0.0, 0.0, 0.45));
+  const Eigen::Isometry3d T_map_between(post_at(0.0));
   const int piece = scene.add(post, T_map_between, {});
   ModelMotion motion(scene, piece, post, T_map_camera, {T_map_between, {}}, {});
   EXPECT_EQ(searchPose(motion, makeScan(depth_m, test::kinectCamera(), {}), {}).status, AlignStatus::kAmbiguous);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/camera/sensor/tone_curve.h"
+#include "core/geometry/tone_curve.h"
 #include "core/render/camera_rays.h"
 #include "core/tags/tag_family.h"
 
@@ -32,7 +32,7 @@ cv::Mat takeBoardPicture(const TagBoard& board, const BoardCamera& camera, const
   const render::CameraRays rays(camera.pinhole, camera.distortion);
   const cv::Mat cells = drawTagBoard(board, 1);
   const Eigen::Isometry3d T_board_camera = T_camera_board.inverse();
-  const camera::ToneCurve& curve = camera::ToneCurve::instance();
+  const geometry::ToneCurve& curve = geometry::ToneCurve::instance();
   cv::Mat picture(camera.pinhole.height, camera.pinhole.width, CV_8UC1);
   for (int v = 0; v < picture.rows; ++v) {
     for (int u = 0; u < picture.cols; ++u) {
