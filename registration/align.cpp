@@ -80,7 +80,7 @@ class Aligner {
     result.outline = equations_.edge_inliers / std::max(1.0, static_cast<double>(outline_places_));
     result.rms_m = equations_.weight > 0.0 ? std::sqrt(equations_.squares_m / equations_.weight) : 0.0;
     result.covariance = covariance();
-    if (readings < config_.min_inliers) {
+    if (readings < config_.min_inliers || counts.occluded > config_.max_hidden * readings) {
       result.status = AlignStatus::kNotInView;
     } else if (equations_.inliers < config_.min_inliers || result.overlap < config_.min_overlap) {
       result.status = AlignStatus::kTooLittleOverlap;
@@ -217,6 +217,7 @@ std::vector<std::string> AlignConfig::validate() const {
       .greater("min_observability", min_observability, 1.0)
       .atLeast("min_inliers", min_inliers, 6)
       .between("min_overlap", min_overlap, 0.0, 1.0)
+      .between("max_hidden", max_hidden, 0.0, 1.0)
       .atLeast("threads", threads, 1)
       .messages();
 }

@@ -29,6 +29,7 @@ struct AlignConfig {
   double min_observability = 10.0;  ///< information over what turned normals would feign; below it a direction is not observed
   int min_inliers = 60;
   double min_overlap = 0.25;  ///< inliers / pixels of the model with a reading and nothing in front
+  double max_hidden = 0.8;    ///< share of the model\'s pixels with a reading that may lie behind something; above it: kNotInView
   int threads = 1;            ///< of the renderer
 
   template <class Visitor>
@@ -46,13 +47,14 @@ struct AlignConfig {
     visitor("min_observability", min_observability);
     visitor("min_inliers", min_inliers);
     visitor("min_overlap", min_overlap);
+    visitor("max_hidden", max_hidden);
     visitor("threads", threads);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 
 enum class AlignStatus {
-  kNotInView,         ///< the camera sees nothing of the model, or has no depth there
+  kNotInView,         ///< the camera sees nothing of the model, has no depth there, or something stands before it
   kTooLittleOverlap,  ///< too few of the model's pixels are where the scan is
   kDegenerate,        ///< converged, but not in the directions named
   kAmbiguous,         ///< another pose explains the scan as well

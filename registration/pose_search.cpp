@@ -64,8 +64,12 @@ class Search {
     for (Hypothesis& hypothesis : found) {
       hypothesis = alignedFrom(hypothesis.state, scan_, config_.align);
     }
-    if (found.empty() || isWithinRange(first)) {
+    if (isWithinRange(first)) {
       found.insert(found.begin(), first);
+    }
+    found.erase(std::remove_if(found.begin(), found.end(), [&](const Hypothesis& h) { return !isWithinRange(h); }), found.end());
+    if (found.empty()) {
+      return nothingFound(middle);
     }
     return theBest(found);
   }
@@ -105,6 +109,16 @@ class Search {
                      [](const Hypothesis& a, const Hypothesis& b) { return scoreOf(a.result) > scoreOf(b.result); });
     found.resize(std::min(found.size(), static_cast<std::size_t>(config_.best_starts)));
     return found;
+  }
+
+  /// What there is lies beyond where the model may be.
+  AlignResult nothingFound(const std::vector<double>& middle) {
+    motion_.restore(middle);
+    AlignResult result = judge(motion_, scan_, config_.align);
+    if (isUsable(result)) {
+      result.status = AlignStatus::kTooLittleOverlap;
+    }
+    return result;
   }
 
   AlignResult theBest(const std::vector<Hypothesis>& found) {

@@ -188,7 +188,7 @@ TEST(Align, SaysWhatIsMissing) {
   for (const Refusal& refusal : {Refusal{"no depth", dark, AlignStatus::kNotInView},
                                  {"five points", five_points, AlignStatus::kNotInView},
                                  {"it has gone", far_wall, AlignStatus::kTooLittleOverlap},
-                                 {"a hand before the lens", hand, AlignStatus::kTooLittleOverlap}}) {
+                                 {"a hand before the lens", hand, AlignStatus::kNotInView}}) {
     render::Scene scene;
     const int piece = scene.add(world.cabinet, world.T_map_model, world.joints);
     ModelMotion motion(scene, piece, world.cabinet, world.T_map_camera, {world.T_map_model, world.joints}, {});
@@ -268,6 +268,7 @@ TEST(AlignConfig, Rules) {
                                        {"min_observability", "1", "must be > 1"},
                                        {"min_inliers", "5", "must be >= 6"},
                                        {"min_overlap", "1.1", "must be from 0 to 1"},
+                                       {"max_hidden", "1.1", "must be from 0 to 1"},
                                        {"threads", "0", "must be >= 1"}});
 }
 

@@ -95,6 +95,13 @@ TEST(PoseSearch, StaysWithinItsRange) {
   EXPECT_LT(found.error_rad, 1.0 * kDegree);
 }
 
+/// What looks like it is half a metre beyond where it may be.
+TEST(PoseSearch, WhatIsOutOfRangeIsNotFound) {
+  const Eigen::Isometry3d T_model_start(Eigen::Translation3d(0.0, 0.9, 0.0));
+  const Found found = searchFrom({"cabinet"}, T_model_start);
+  EXPECT_NE(found.result.status, AlignStatus::kConverged);
+}
+
 TEST(PoseSearch, AnArticulatedFreedomAloneBreaksTheContract) {
   const model::ArticulatedModel cabinet = test::believed({"cabinet"});
   render::Scene scene;

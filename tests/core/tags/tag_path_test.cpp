@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/config.h"
-#include "core/recording/image_codec.h"
+#include "core/recording/png_encoder.h"
 #include "core/tags/tag_setup.h"
 #include "tests/core/tags/board_picture.h"
 #include "tests/support/enum_table_check.h"
@@ -39,7 +39,7 @@ class TagPath : public testing::Test {
   void addPicture(const cv::Mat& gray) {
     cv::Mat bgra;
     cv::cvtColor(gray, bgra, cv::COLOR_GRAY2BGRA);
-    const std::vector<unsigned char> png = recording::encodePng(bgra);
+    const std::vector<unsigned char> png = recording::encodePng(bgra, 1);
     const std::string name = std::to_string(count_) + ".png";
     (void)folder_.write(name, std::string(png.begin(), png.end()));
     list_ += std::to_string(count_++) + ".5 " + name + "\n";
