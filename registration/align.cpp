@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -18,7 +19,9 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kLongestStep_m = 0.15;
 constexpr double kLongestStep_rad = 0.15;
-constexpr double kSmallStep = 2e-4;   ///< m, and rad
+constexpr double kSmallStep = 2e-4;  ///< m, and rad
+constexpr double kNearStep = 0.01;   ///< m, and rad: about a pixel
+constexpr int kStepsOfALook = 3;
 constexpr double kTurnLever_m = 0.5;  ///< a radian counts as much as half a metre
 
 /// The loop, one level after the other.
@@ -40,9 +43,34 @@ class Aligner {
         return false;
       }
       takeStep();
+      settled_ = last_step_m_ < kSmallStep;
+      for (int k = 0; k < kStepsOfALook && last_step_m_ >= kSmallStep && last_step_m_ < kNearStep; ++k) {
+        followPairs();
+        takeStep();
+      }
       ++iterations_;
     }
     return true;
+  }
+
+  /// A step too short to change which pixel is paired with which needs no new picture: the pairs go along with what moved.
+  void followPairs() {
+    const std::vector<render::ScenePart>& parts = motion_.scene().parts();
+    const Eigen::Isometry3d T_scan_moved = motion_.T_map_camera() * looked_.T_map_camera.inverse();
+    std::map<int, Eigen::Isometry3d> T_part_moved;
+    for (std::size_t i = 0; i < pairing_.pairs.size(); ++i) {
+      const Pair& before = looked_.pairs[i];
+      const auto part = static_cast<std::size_t>(before.part);
+      auto moved = T_part_moved.find(before.part);
+      if (moved == T_part_moved.end()) {
+        moved = T_part_moved.emplace(before.part, parts[part].T_map_part * looked_.T_map_part[part].inverse()).first;
+      }
+      Pair& now = pairing_.pairs[i];
+      now.model_map = moved->second * before.model_map;
+      now.normal_map = moved->second.linear() * before.normal_map;
+      now.scan_map = T_scan_moved * before.scan_map;
+    }
+    sum();
   }
 
   void look(const Scan& scan, const render::CameraRays& rays) {
@@ -58,6 +86,16 @@ class Aligner {
     if (config_.has_edges) {
       outline_places_ = appendEdgePairs(view, scan, *edges_, T_map_camera, gate_m_, pairing_.pairs);
     }
+    looked_.pairs = pairing_.pairs;
+    looked_.T_map_camera = T_map_camera;
+    looked_.T_map_part.clear();
+    for (const render::ScenePart& part : motion_.scene().parts()) {
+      looked_.T_map_part.push_back(part.T_map_part);
+    }
+    sum();
+  }
+
+  void sum() {
     equations_ = sumUp(pairing_.pairs, motion_, {config_.surface_sigma_m, config_.normal_sigma_deg * kDegree, gate_m_ / 3.0});
     observability_ = observe(equations_);
   }
@@ -125,7 +163,7 @@ class Aligner {
       step /= length;
     }
     motion_.apply(step);
-    settled_ = length * kLongestStep_m < kSmallStep;
+    last_step_m_ = length * kLongestStep_m;
   }
 
   /// What makes a turn as long as a way.
@@ -194,11 +232,18 @@ class Aligner {
   double gate_m_ = 0.0;
   double min_observability_ = 0.0;
   std::optional<ScanEdges> edges_;  ///< of the scan of this level
+  struct Looked {
+    std::vector<Pair> pairs;
+    Eigen::Isometry3d T_map_camera;
+    std::vector<Eigen::Isometry3d> T_map_part;
+  };
+  Looked looked_;  ///< as the last picture was taken
   Pairing pairing_;
   int outline_places_ = 0;
   NormalEquations equations_;
   Observability observability_;
   int iterations_ = 0;
+  double last_step_m_ = 0.0;
   bool settled_ = false;
 };
 

@@ -28,45 +28,112 @@ Step jacobianOf(const Pair& pair, const Twists& twists, const Eigen::Vector3d& p
   return -twists.transpose() * row;
 }
 
-NormalEquations sumUp(const std::vector<Pair>& pairs, const Motion& motion, const ErrorModel& errors) {
-  const Eigen::Index size = motion.dimension();
-  NormalEquations sum{StepMatrix::Zero(size, size), Step::Zero(size), StepMatrix::Zero(size, size), StepMatrix::Zero(size, size)};
-  const Eigen::Vector3d pivot_map = motion.pivot_map();
-  std::map<int, Twists> twists_of_part;
-  std::map<std::array<int, 5>, Step> shifts;
-  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 8> velocity(3, size);
-  for (const Pair& pair : pairs) {
-    const auto known = twists_of_part.find(pair.part);
-    const Twists& twists =
-        known != twists_of_part.end() ? known->second : twists_of_part.emplace(pair.part, motion.twistsOf(pair.part)).first->second;
-    const double sigma_m = std::hypot(pair.sigma_m, errors.surface_sigma_m);
+namespace {
+
+/// Sums in plain arrays: a pair costs some dozens of multiplications, and matrices of a size known only at run time cost more than that.
+class Sums {
+ public:
+  Sums(const Motion& motion, const ErrorModel& errors)
+      : motion_(motion), errors_(errors), size_(motion.dimension()), pivot_map_(motion.pivot_map()) {}
+
+  void add(const Pair& pair) {
+    const double sigma_m = std::sqrt(pair.sigma_m * pair.sigma_m + errors_.surface_sigma_m * errors_.surface_sigma_m);
     const double residual_m = pair.residual_m();
-    const double kernel_m = std::max(3.0 * sigma_m, errors.kernel_m);
+    const double kernel_m = std::max(3.0 * sigma_m, errors_.kernel_m);
     const double share = 1.0 / (1.0 + residual_m * residual_m / (kernel_m * kernel_m));
     const double weight = share * share / (sigma_m * sigma_m);
-    const Step J = jacobianOf(pair, twists, pivot_map);
-    sum.H += weight * J * J.transpose();
-    sum.g += weight * residual_m * J;
-    const Eigen::Vector3d arm = pair.model_map - pivot_map;
-    for (Eigen::Index i = 0; i < size; ++i) {
-      velocity.col(i) = twists.col(i).head<3>() + Eigen::Vector3d(twists.col(i).tail<3>()).cross(arm);
+    Surface& surface = surfaceFor(pair);
+    const Eigen::Vector3d arm = pair.model_map - pivot_map_;
+    std::array<double, kMost> J{};
+    std::array<Eigen::Vector3d, kMost> velocity;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(size_); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      velocity[k] = surface.twists->col(column).head<3>() + Eigen::Vector3d(surface.twists->col(column).tail<3>()).cross(arm);
+      J[k] = -pair.normal_map.dot(velocity[k]);
     }
     // A normal turned by a small angle takes up what moves along the surface; an outline has no other side to turn to.
-    const double normal_sigma_rad = pair.is_edge ? 0.0 : errors.normal_sigma_rad;
-    sum.H_of_noise += weight * normal_sigma_rad * normal_sigma_rad * (velocity.transpose() * velocity - J * J.transpose());
-    const auto shift = shifts.try_emplace(surfaceOf(pair), Step::Zero(size)).first;
-    shift->second += weight * errors.surface_sigma_m * J;
-    sum.weight += weight * sigma_m * sigma_m;
-    sum.squares += weight * residual_m * residual_m;
-    sum.squares_m += weight * sigma_m * sigma_m * residual_m * residual_m;
+    const double noise = pair.is_edge ? 0.0 : weight * errors_.normal_sigma_rad * errors_.normal_sigma_rad;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(size_); ++k) {
+      for (std::size_t l = 0; l <= k; ++l) {
+        H_[k][l] += weight * J[k] * J[l];
+        H_of_noise_[k][l] += noise * (velocity[k].dot(velocity[l]) - J[k] * J[l]);
+      }
+      g_[k] += weight * residual_m * J[k];
+      surface.shift[k] += weight * errors_.surface_sigma_m * J[k];
+    }
+    sum_.weight += share * share;
+    sum_.squares += weight * residual_m * residual_m;
+    sum_.squares_m += share * share * residual_m * residual_m;
     if (std::abs(residual_m) < kernel_m) {
-      ++(pair.is_edge ? sum.edge_inliers : sum.inliers);
+      ++(pair.is_edge ? sum_.edge_inliers : sum_.inliers);
     }
   }
-  for (const auto& [surface, shift] : shifts) {
-    sum.surfaces += shift * shift.transpose();
+
+  NormalEquations total() {
+    sum_.H = StepMatrix::Zero(size_, size_);
+    sum_.H_of_noise = StepMatrix::Zero(size_, size_);
+    sum_.surfaces = StepMatrix::Zero(size_, size_);
+    sum_.g = Eigen::Map<const Step>(g_.data(), size_);
+    for (Eigen::Index k = 0; k < size_; ++k) {
+      for (Eigen::Index l = 0; l <= k; ++l) {
+        sum_.H(k, l) = sum_.H(l, k) = H_[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)];
+        sum_.H_of_noise(k, l) = sum_.H_of_noise(l, k) = H_of_noise_[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)];
+      }
+    }
+    for (const auto& [key, surface] : surfaces_) {
+      const Eigen::Map<const Step> shift(surface.shift.data(), size_);
+      sum_.surfaces += shift * shift.transpose();
+    }
+    return sum_;
   }
-  return sum;
+
+ private:
+  static constexpr std::size_t kMost = 8;  ///< degrees of freedom
+  struct Surface {
+    const Twists* twists = nullptr;
+    std::array<double, kMost> shift{};  ///< what its deviation does to g
+  };
+
+  Surface& surfaceFor(const Pair& pair) {
+    const std::array<int, 5> key = surfaceOf(pair);
+    if (last_ != nullptr && key == last_key_) {
+      return *last_;
+    }
+    auto surface = surfaces_.find(key);
+    if (surface == surfaces_.end()) {
+      auto twists = twists_of_part_.find(pair.part);
+      if (twists == twists_of_part_.end()) {
+        twists = twists_of_part_.emplace(pair.part, motion_.twistsOf(pair.part)).first;
+      }
+      surface = surfaces_.emplace(key, Surface{&twists->second}).first;
+    }
+    last_key_ = key;
+    last_ = &surface->second;
+    return *last_;
+  }
+
+  const Motion& motion_;
+  const ErrorModel& errors_;
+  Eigen::Index size_;
+  Eigen::Vector3d pivot_map_;
+  std::map<int, Twists> twists_of_part_;
+  std::map<std::array<int, 5>, Surface> surfaces_;
+  std::array<int, 5> last_key_{};
+  Surface* last_ = nullptr;
+  std::array<std::array<double, kMost>, kMost> H_{};
+  std::array<std::array<double, kMost>, kMost> H_of_noise_{};
+  std::array<double, kMost> g_{};
+  NormalEquations sum_;
+};
+
+}  // namespace
+
+NormalEquations sumUp(const std::vector<Pair>& pairs, const Motion& motion, const ErrorModel& errors) {
+  Sums sums(motion, errors);
+  for (const Pair& pair : pairs) {
+    sums.add(pair);
+  }
+  return sums.total();
 }
 
 Observability observe(const NormalEquations& equations) {

@@ -16,40 +16,50 @@ namespace {
 class InversePlane {
  public:
   void add(double du, double dv, double q) {
-    const Eigen::Vector3d x(du, dv, 1.0);
-    squares_ += x * x.transpose();
-    products_ += q * x;
+    uu_ += du * du;
+    uv_ += du * dv;
+    vv_ += dv * dv;
+    u_ += du;
+    v_ += dv;
+    qu_ += q * du;
+    qv_ += q * dv;
+    q_ += q;
     ++count_;
   }
   [[nodiscard]] int count() const { return count_; }
-  [[nodiscard]] Eigen::Vector3d solve() const { return squares_.ldlt().solve(products_); }
+  /// (a, b, c); NaN if the readings lie on a line.
+  [[nodiscard]] Eigen::Vector3d solve() const {
+    Eigen::Matrix3d squares;
+    squares << uu_, uv_, u_, uv_, vv_, v_, u_, v_, count_;
+    return squares.inverse() * Eigen::Vector3d(qu_, qv_, q_);
+  }
 
  private:
-  Eigen::Matrix3d squares_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d products_ = Eigen::Vector3d::Zero();
+  double uu_ = 0.0, uv_ = 0.0, vv_ = 0.0, u_ = 0.0, v_ = 0.0, qu_ = 0.0, qv_ = 0.0, q_ = 0.0;
   int count_ = 0;
 };
 
 class NormalFitter {
  public:
   NormalFitter(const cv::Mat& depth_m, const camera::PinholeCamera& camera, const ScanConfig& config)
-      : depth_m_(depth_m), camera_(camera), config_(config) {}
+      : inverse_depth_(1.0F / depth_m), camera_(camera), config_(config) {}
 
   /// Zero if too little of the window is on the same surface.
   [[nodiscard]] Eigen::Vector3f at(int u, int v) const {
-    const float centre_m = depth_m_.at<float>(v, u);
+    const float centre = inverse_depth_.at<float>(v, u);
+    const float step = static_cast<float>(config_.max_step_share) * centre;
     const int stride = std::max(1, config_.normal_radius_px / 2);
     InversePlane plane;
     int samples = 0;
     for (int y = v - config_.normal_radius_px; y <= v + config_.normal_radius_px; y += stride) {
+      const float* row = y < 0 || y >= camera_.height ? nullptr : inverse_depth_.ptr<float>(y);
       for (int x = u - config_.normal_radius_px; x <= u + config_.normal_radius_px; x += stride) {
-        if (x < 0 || y < 0 || x >= camera_.width || y >= camera_.height) {
+        if (row == nullptr || x < 0 || x >= camera_.width) {
           continue;
         }
         ++samples;
-        const float z = depth_m_.at<float>(y, x);
-        if (std::abs(z - centre_m) < config_.max_step_share * centre_m) {  // false for NaN
-          plane.add(x - u, y - v, 1.0 / z);
+        if (std::abs(row[x] - centre) < step) {  // false for NaN
+          plane.add(x - u, y - v, static_cast<double>(row[x]));
         }
       }
     }
@@ -58,11 +68,14 @@ class NormalFitter {
     }
     const Eigen::Vector3d q = plane.solve();
     const Eigen::Vector3d normal(q.x() * camera_.fx, q.y() * camera_.fy, q.z() - q.x() * (u - camera_.cx) - q.y() * (v - camera_.cy));
+    if (!normal.allFinite()) {
+      return Eigen::Vector3f::Zero();
+    }
     return (-normal.normalized()).cast<float>();  // q > 0: the plane's normal points away from the camera
   }
 
  private:
-  const cv::Mat& depth_m_;
+  cv::Mat inverse_depth_;  ///< 1/m
   const camera::PinholeCamera& camera_;
   const ScanConfig& config_;
 };

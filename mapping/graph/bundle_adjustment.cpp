@@ -10,9 +10,9 @@
 #include <cmath>
 #include <set>
 
+#include "core/camera/depth_noise.h"
 #include "mapping/graph/pose_block.h"
 #include "mapping/graph/projection_cost.h"
-#include "core/camera/depth_noise.h"
 
 namespace oikos::mapping {
 

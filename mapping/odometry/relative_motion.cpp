@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "core/geometry/rigid_alignment.h"
 #include "core/camera/depth_noise.h"
+#include "core/geometry/rigid_alignment.h"
 
 namespace oikos::mapping {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/geometry/se3.h"
 #include "core/camera/depth_noise.h"
+#include "core/geometry/se3.h"
 
 namespace oikos::test {
 

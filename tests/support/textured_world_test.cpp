@@ -7,8 +7,8 @@
 #include <opencv2/core.hpp>
 
 #include "core/base/error.h"
-#include "core/geometry/se3.h"
 #include "core/camera/depth_noise.h"
+#include "core/geometry/se3.h"
 #include "tests/support/textured_recording.h"
 
 namespace oikos::test {

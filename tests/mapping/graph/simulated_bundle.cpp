@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/se3.h"
 #include "core/camera/depth_noise.h"
+#include "core/geometry/se3.h"
 #include "tests/support/analytic_room.h"
 
 namespace oikos::mapping {

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// align() beside PCL's IterativeClosestPointWithNormals on the same depth images, in turns, on one thread: the same scan points, the same
+// model rendered from the same start, normals counted on both sides.
+#include <pcl/features/normal_3d.h>
+#include <pcl/point_types.h>
+#include <pcl/registration/icp.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <random>
+
+#include "registration/align.h"
+#include "tests/registration/furniture_scan.h"
+
+namespace {
+
+using namespace oikos;
+using PclCloud = pcl::PointCloud<pcl::PointNormal>;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+double cpuMs(const std::function<void()>& action) {
+  const std::clock_t begin = std::clock();
+  action();
+  return 1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Case {
+  model::ArticulatedModel model;
+  std::vector<double> joint_values;
+  Eigen::Isometry3d T_map_true;
+  Eigen::Isometry3d T_map_start;
+  Eigen::Isometry3d T_map_camera;
+  cv::Mat depth_m;
+};
+
+Case makeCase(int number, double range_m, double range_deg) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(number) + 77);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const test::FurnitureKind& furniture = test::furnitureKinds()[static_cast<std::size_t>(number) % test::furnitureKinds().size()];
+  const model::ArticulatedModel real = test::trulyBuilt(furniture, 0.005, random);
+  test::FurnitureScene world;
+  world.model = &real;
+  world.joint_values.assign(real.joints.size(), 0.0);
+  world.T_map_model = Eigen::AngleAxisd(std::numbers::pi * uniform(random), Eigen::Vector3d::UnitZ());
+  world.T_map_camera = test::cameraBefore(world.T_map_model, 2.0, (uniform(random) > 0.0 ? 1.0 : -1.0) * 42.0 * kDegree, 0.6);
+  world.noise_seed = static_cast<std::uint64_t>(number);
+  Case made{test::believed(furniture), world.joint_values,
+            world.T_map_model,         {},
+            world.T_map_camera,        test::recordDepth(world, test::kinectCamera())};
+  made.T_map_start = Eigen::Translation3d(range_m * uniform(random), range_m * uniform(random), 0.0) *
+                     Eigen::AngleAxisd(range_deg * kDegree * uniform(random), Eigen::Vector3d::UnitZ()) * made.T_map_true;
+  return made;
+}
+
+struct Outcome {
+  double ms = 0.0;
+  double error_cm = 0.0;
+  double error_deg = 0.0;
+  int points = 0;
+};
+
+Outcome errorOf(const Case& made, const Eigen::Isometry3d& T_map_found) {
+  const Eigen::Isometry3d T_true_found = made.T_map_true.inverse() * T_map_found;
+  Outcome outcome;
+  outcome.error_cm = 100.0 * T_true_found.translation().norm();
+  outcome.error_deg = Eigen::AngleAxisd(T_true_found.linear()).angle() / kDegree;
+  return outcome;
+}
+
+Outcome runOurs(const Case& made, const registration::ScanConfig& scan_config) {
+  render::Scene scene;
+  const int piece = scene.add(made.model, made.T_map_start, made.joint_values);
+  registration::ModelMotion motion(scene, piece, made.model, made.T_map_camera, {made.T_map_start, made.joint_values}, {});
+  int points = 0;
+  const double ms = cpuMs([&] {
+    const registration::Scan scan = registration::makeScan(made.depth_m, test::kinectCamera(), scan_config);
+    points = registration::align(motion, scan, {}).inliers;
+  });
+  Outcome outcome = errorOf(made, motion.pose().T_map_model);
+  outcome.ms = ms;
+  outcome.points = points;
+  return outcome;
+}
+
+void estimateNormals(const PclCloud::Ptr& cloud) {
+  pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setKSearch(20);
+  estimation.setViewPoint(0.0F, 0.0F, 0.0F);
+  PclCloud normals;
+  estimation.compute(normals);
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    (*cloud)[i].normal_x = normals[i].normal_x;
+    (*cloud)[i].normal_y = normals[i].normal_y;
+    (*cloud)[i].normal_z = normals[i].normal_z;
+  }
+}
+
+/// The scan's points where the model is seen onto the rendered model (S213-S215), in the camera's frame.
+Outcome runPcl(const Case& made, const registration::ScanConfig& scan_config, double correspondence_m) {
+  const camera::PinholeCamera camera = registration::thinned(test::kinectCamera(), scan_config.step_px);
+  const PclCloud::Ptr source(new PclCloud);
+  const PclCloud::Ptr target(new PclCloud);
+  render::Scene scene;
+  scene.add(made.model, made.T_map_start, made.joint_values);
+  scene.commit();
+  Eigen::Isometry3d T_camera_moved = Eigen::Isometry3d::Identity();
+  const double ms = cpuMs([&] {
+    const render::View view = test::viewOf(scene, camera, made.T_map_camera);
+    for (int v = 0; v < camera.height; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        if (view.part.at<int>(v, u) >= 0) {
+          const Eigen::Vector3f point = (static_cast<double>(view.depth_m.at<float>(v, u)) * camera.ray(u, v)).cast<float>();
+          const cv::Vec3f normal = view.normal_camera.at<cv::Vec3f>(v, u);
+          pcl::PointNormal p;
+          p.getVector3fMap() = point;
+          p.normal_x = normal[0];
+          p.normal_y = normal[1];
+          p.normal_z = normal[2];
+          target->push_back(p);
+          // The scan where the model is seen: what align() pairs, too.
+          const double z = static_cast<double>(made.depth_m.at<float>(v * scan_config.step_px, u * scan_config.step_px));
+          if (std::isfinite(z)) {
+            p.getVector3fMap() = (z * camera.ray(u, v)).cast<float>();
+            source->push_back(p);
+          }
+        }
+      }
+    }
+    estimateNormals(source);
+    pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
+    icp.setInputSource(source);
+    icp.setInputTarget(target);
+    icp.setMaxCorrespondenceDistance(correspondence_m);
+    icp.setMaximumIterations(50);
+    icp.setTransformationEpsilon(1e-8);
+    PclCloud moved;
+    icp.align(moved);
+    T_camera_moved = Eigen::Isometry3d(icp.getFinalTransformation().cast<double>());
+  });
+  // The scan was moved onto the model; the model goes the other way.
+  Outcome outcome = errorOf(made, made.T_map_camera * T_camera_moved.inverse() * made.T_map_camera.inverse() * made.T_map_start);
+  outcome.ms = ms;
+  outcome.points = static_cast<int>(source->size());
+  return outcome;
+}
+
+void print(const char* name, const std::vector<Outcome>& outcomes, double ours_ms) {
+  std::vector<double> ms;
+  std::vector<double> cm;
+  std::vector<double> deg;
+  double points = 0.0;
+  for (const Outcome& outcome : outcomes) {
+    ms.push_back(outcome.ms);
+    cm.push_back(outcome.error_cm);
+    deg.push_back(outcome.error_deg);
+    points += outcome.points / static_cast<double>(outcomes.size());
+  }
+  const auto within =
+      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.error_cm < 3.0 && o.error_deg < 3.0; });
+  std::printf("| %-22s | %6.0f | %7.1f | %6.1fx | %.2f | %.2f | %ld of %zu |\n", name, points, median(ms), median(ms) / ours_ms, median(cm),
+              median(deg), within, outcomes.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Registration of furniture beside PCL's ICP"};
+  int trials = 40;
+  double range_m = 0.05;
+  double range_deg = 3.0;
+  registration::ScanConfig scan_config;
+  app.add_option("--trials", trials, "how many; kinds take turns")->check(CLI::PositiveNumber);
+  app.add_option("--range-m", range_m, "start's offset in x and y, at most");
+  app.add_option("--range-deg", range_deg, "and its turn");
+  app.add_option("--step-px", scan_config.step_px, "one point in so many columns and rows");
+  CLI11_PARSE(app, argc, argv);
+  std::vector<Outcome> ours;
+  std::vector<Outcome> pcl;
+  for (int i = 0; i < trials; ++i) {
+    const Case made = makeCase(i, range_m, range_deg);
+    ours.push_back(runOurs(made, scan_config));
+    pcl.push_back(runPcl(made, scan_config, 0.1));
+  }
+  std::vector<double> ours_ms;
+  for (const Outcome& outcome : ours) {
+    ours_ms.push_back(outcome.ms);
+  }
+  std::printf("| | points | CPU ms | | error cm | deg | within 3 cm, 3 deg |\n|---|---|---|---|---|---|---|\n");
+  print("align()", ours, median(ours_ms));
+  print("PCL, ICP with normals", pcl, median(ours_ms));
+  return 0;
+}
