@@ -17,12 +17,24 @@ namespace {
 namespace fs = std::filesystem;
 
 /// With 5 mm of the mount go 0.3 degrees, and 0.2 % of the focal lengths and of the width for the principal point.
+/// At 5 mm what a tape and a careful installer leave, and what is out of their hands: 0.5 degrees of walls and hinges, half a percent of
+/// depth.
 void setBelief(simulate::BeliefSettings& belief, double belief_m) {
-  constexpr double kDegPerMetre = 60.0;
-  constexpr double kSharePerMetre = 0.4;
-  belief.mount_m = belief_m;
-  belief.mount_deg = belief_m * kDegPerMetre;
-  belief.intrinsics_share = belief_m * kSharePerMetre;
+  if (belief_m == 0.0) {
+    belief = {};
+    return;
+  }
+  const double share = belief_m / 0.005;
+  belief.dimension_m = belief_m;
+  belief.axis_m = 0.003 * share;
+  belief.axis_deg = 0.5 * share;
+  belief.wall_deg = 0.5 * share;
+  belief.extra_part_share = 0.2;
+  belief.clutter = 30;
+  belief.mount_m = 0.003 * share;
+  belief.mount_deg = 0.2 * share;
+  belief.intrinsics_share = 0.002 * share;
+  belief.depth_scale_share = 0.005 * share;
 }
 
 /// A copy of the home with this one scene: a scene finds its home by where it lies.
