@@ -10,6 +10,7 @@
 
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
+#include "mapping/volume/depth_normal.h"
 #include "mapping/volume/up_direction.h"
 
 namespace oikos::mapping {
@@ -24,24 +25,6 @@ constexpr double kLevelCosine = 0.9925;  ///< 7°: a floor's is not
 constexpr double kWellBelow_m = 0.15;
 constexpr double kDepthBias_m = 0.02;      ///< of one side of a floor against the other
 constexpr double kUpDeviation_rad = 0.02;  ///< of the direction that all surface votes for
-
-/// Normal at a pixel from four readings around it, towards the camera; nothing at edges and holes.
-std::optional<Eigen::Vector3f> findNormal(const cv::Mat& depth_m, const camera::PinholeCamera& camera, const Eigen::Vector2i& pixel,
-                                          int reach_px) {
-  const auto point = [&](int du, int dv) -> Eigen::Vector3f {
-    const float z = depth_m.ptr<float>(pixel.y() + dv)[pixel.x() + du];
-    return z * camera.ray(pixel.x() + du, pixel.y() + dv).cast<float>();
-  };
-  const Eigen::Vector3f across = point(reach_px, 0) - point(-reach_px, 0);
-  const Eigen::Vector3f down = point(0, reach_px) - point(0, -reach_px);
-  const Eigen::Vector3f normal = down.cross(across);
-  const Eigen::Vector3f bend = point(reach_px, 0) + point(-reach_px, 0) - point(0, reach_px) - point(0, -reach_px);
-  const float length = normal.norm();
-  if (!(length > 0.0F) || !(bend.norm() < 0.25F * (across.norm() + down.norm()))) {
-    return std::nullopt;
-  }
-  return normal / length;
-}
 
 /// A plane that faces up, with what speaks for it.
 struct Candidate {
@@ -251,7 +234,7 @@ void FloorFinder::add(const cv::Mat& depth_m, const camera::PinholeCamera& camer
       if (!(z > 0.0F) || !(wanted_px <= room_px)) {
         continue;
       }
-      const auto normal = findNormal(depth_m, camera, {u, v}, std::max(2, static_cast<int>(wanted_px)));
+      const auto normal = findDepthNormal(depth_m, camera, {u, v}, std::max(2, static_cast<int>(wanted_px)));
       const Eigen::Vector3f point_world = T * (z * camera.ray(u, v).cast<float>());
       const auto key = lattice_.findKey(point_world);
       if (!normal || !key) {
