@@ -49,9 +49,11 @@ Eigen::Isometry2d randomStart(simulate::Dice& dice) {
 
 void printFigures(const std::string& name, const mapping::PlanFit& fit) {
   const mapping::PlanFigures& f = fit.figures;
-  std::printf("    %-34s %-14s on %4.2f supp %4.2f crossed %5.2f m outside %5.2f m2 beyond %5.3f rms %4.1f mm twin %4.2f  %s\n",
-              name.c_str(), std::string(base::toString(fit.status)).c_str(), f.on_plan_share, f.supported_share, f.crossed_m,
-              f.floor_outside_m2, f.beyond_share, 1000.0 * f.rms_m, fit.runner_up, fit.reason.c_str());
+  std::printf(
+      "    %-34s %-14s on %4.2f supp %4.2f crossed %5.2f missing %5.2f m outside %5.2f m2 beyond %5.3f rms %4.1f mm moved %4.2f twin %4.2f "
+      " %s\n",
+      name.c_str(), std::string(base::toString(fit.status)).c_str(), f.on_plan_share, f.supported_share, f.crossed_m, f.missing_m,
+      f.floor_outside_m2, f.beyond_share, 1000.0 * f.rms_m, fit.moved_room.gain_share, fit.runner_up, fit.reason.c_str());
 }
 
 void runRight(const bench::SeenHome& seen, const Options& options, simulate::Dice& dice, Tally& tally) {

@@ -13,6 +13,7 @@ struct PlanLine {
   Eigen::Vector2d to_plan = Eigen::Vector2d::Zero();
   Eigen::Vector2d inwards = Eigen::Vector2d::Zero();  ///< unit length, into the room; zero: not known, either side may be seen
   bool is_wall = true;                                ///< or the side of a fixed piece of furniture: it may be hidden, and hides
+  int room = 0;                                       ///< lines with the same number are drawn together
 
   [[nodiscard]] double lengthM() const { return (to_plan - from_plan).norm(); }
 };
@@ -20,6 +21,9 @@ struct PlanLine {
 struct FloorPlan {
   std::vector<PlanLine> lines;
 };
+
+/// Numbers the rooms of a drawing, whose lines say nothing of them: lines that touch belong together.
+void numberRooms(FloorPlan& plan);
 
 /// Adds the sides of a room's outline, either way round; seen from inside. Sides shorter than a millimetre are left out.
 void addRoom(const std::vector<Eigen::Vector2d>& outline_plan, FloorPlan& plan);

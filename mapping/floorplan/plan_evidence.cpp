@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kStep_m = 0.05;         ///< along lines
 constexpr double kBeside_m = 0.10;       ///< floor so far on both sides of a line is seen through it
+constexpr double kBefore_m = 0.15;       ///< and so far before it shows that nothing hides it
+constexpr double kStretch_m = 0.2;       ///< of wall
 constexpr double kClearOfLine_m = 0.25;  ///< farther from a line than this a surface is not that line's
 constexpr int kDirections = 16;
 constexpr int kFewestWalls = 12;    ///< of the directions: a place from which fewer meet walls is in no room
@@ -23,6 +25,12 @@ using Cell = std::pair<int, int>;
 
 Cell cellOf(const Eigen::Vector2d& point, double cell_m) {
   return {static_cast<int>(std::floor(point.x() / cell_m)), static_cast<int>(std::floor(point.y() / cell_m))};
+}
+
+double distanceToLine(const PlanLine& line, const Eigen::Vector2d& point_plan) {
+  const Eigen::Vector2d edge = line.to_plan - line.from_plan;
+  const double share = std::clamp(edge.dot(point_plan - line.from_plan) / std::max(edge.squaredNorm(), 1e-12), 0.0, 1.0);
+  return (line.from_plan + share * edge - point_plan).norm();
 }
 
 class Weighing {
@@ -93,34 +101,73 @@ class Weighing {
     figures_.supported_share = figures_.plan_m > 0.0 ? figures_.supported_m / figures_.plan_m : 0.0;
   }
 
+  /// What runs on without a wall: where that is more than a doorway, it speaks against the plan. Furniture before a line, which hides both
+  /// floor and wall, does not end a run; a stretch of wall that was seen does.
+  class Run {
+   public:
+    explicit Run(double doorway_m) : doorway_m_(doorway_m) {}
+    void lengthen(double step_m) { run_m_ += step_m; }
+    void end() {
+      excess_m_ += std::max(0.0, run_m_ - doorway_m_);
+      run_m_ = 0.0;
+    }
+    [[nodiscard]] double excessM() const { return excess_m_ + std::max(0.0, run_m_ - doorway_m_); }
+
+   private:
+    double doorway_m_;
+    double run_m_ = 0.0;
+    double excess_m_ = 0.0;
+  };
+
   void weighLine(const PlanLine& line, const std::vector<char>& supported) {
     const double length_m = line.lengthM();
     const double step_m = length_m / static_cast<double>(supported.size());
-    double run_m = 0.0;
-    const auto endRun = [&] {
-      figures_.crossed_m += std::max(0.0, run_m - rules_.doorway_m);
-      run_m = 0.0;
-    };
-    figures_.plan_m += length_m;
+    Run crossed(rules_.doorway_m);
+    Run missing(rules_.doorway_m);
+    double wall_m = 0.0;
     for (std::size_t i = 0; i < supported.size(); ++i) {
-      const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(supported.size());
       if (supported[i] != 0) {
         figures_.supported_m += step_m;
-        endRun();
-      } else if (isOverFloor(line, share)) {
-        run_m += step_m;
-      } else {
-        endRun();
+        wall_m += step_m;
+        if (wall_m >= kStretch_m) {
+          crossed.end();
+          missing.end();
+        }
+        continue;
+      }
+      wall_m = 0.0;
+      const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(supported.size());
+      const Surroundings floor = floorBeside(line, share);
+      if (floor.on_line && floor.inside && floor.outside) {
+        crossed.lengthen(step_m);
+      }
+      if (floor.before) {
+        missing.lengthen(step_m);
       }
     }
-    endRun();
+    figures_.plan_m += length_m;
+    figures_.crossed_m += crossed.excessM();
+    figures_.missing_m += missing.excessM();
   }
 
-  [[nodiscard]] bool isOverFloor(const PlanLine& line, double share) const {
+  /// Where floor was seen about a place on a line.
+  struct Surroundings {
+    bool on_line = false;
+    bool inside = false;
+    bool outside = false;
+    bool before = false;  ///< on the room's side, or on either if the plan does not know it
+  };
+  [[nodiscard]] Surroundings floorBeside(const PlanLine& line, double share) const {
     const Eigen::Vector2d along = (line.to_plan - line.from_plan).normalized();
-    const Eigen::Vector2d across(-along.y(), along.x());
+    const Eigen::Vector2d inwards = line.inwards.isZero() ? Eigen::Vector2d(-along.y(), along.x()) : line.inwards;
     const Eigen::Vector2d place_plan = line.from_plan + share * (line.to_plan - line.from_plan);
-    return isFloor(place_plan) && isFloor(place_plan + kBeside_m * across) && isFloor(place_plan - kBeside_m * across);
+    const auto isSeen = [&](double from_line_m) { return isFloor(place_plan + from_line_m * inwards); };
+    Surroundings floor{isSeen(0.0), isSeen(kBeside_m), isSeen(-kBeside_m), false};
+    floor.before = isSeen(kBefore_m) && isSeen(kBefore_m + kBeside_m);
+    if (line.inwards.isZero()) {
+      floor.before = floor.before || (isSeen(-kBefore_m) && isSeen(-kBefore_m - kBeside_m));
+    }
+    return floor;
   }
 
   [[nodiscard]] bool isFloor(const Eigen::Vector2d& place_plan) const {
@@ -135,10 +182,16 @@ class Weighing {
     int outside = 0;
     for (const Cell& cell : coarse) {
       const Eigen::Vector2d centre_level = kCoarse_m * Eigen::Vector2d(cell.first + 0.5, cell.second + 0.5);
-      outside += isInRoom(T_plan_level_ * centre_level) ? 0 : 1;
+      outside += isOutside(T_plan_level_ * centre_level) ? 1 : 0;
     }
     figures_.floor_outside_m2 = outside * kCoarse_m * kCoarse_m;
     figures_.floor_outside_share = coarse.empty() ? 0.0 : outside / static_cast<double>(coarse.size());
+  }
+
+  /// And not just beyond a line: floor is seen that far into an open door's way.
+  [[nodiscard]] bool isOutside(const Eigen::Vector2d& place_plan) const {
+    return !isInRoom(place_plan) && std::none_of(plan_.lines.begin(), plan_.lines.end(),
+                                                 [&](const PlanLine& line) { return distanceToLine(line, place_plan) < kClearOfLine_m; });
   }
 
   /// Drawings have gaps for doors: most directions must meet walls, not all.

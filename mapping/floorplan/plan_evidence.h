@@ -17,6 +17,7 @@ struct PlanFigures {
   double supported_m = 0.0;      ///< of the plan's walls: seen where they are drawn
   double supported_share = 0.0;  ///< of the plan's walls
   double crossed_m = 0.0;        ///< of the plan's walls: floor was seen on both sides and on the line, more than a doorway's width at once
+  double missing_m = 0.0;  ///< of the plan's walls: floor was seen right before them, but no wall; more than a doorway's width at once
   double floor_outside_m2 = 0.0;     ///< floor that was seen where the plan has no room
   double floor_outside_share = 0.0;  ///< of the floor that was seen
   double beyond_share = 0.0;  ///< of the surface that was seen: neither on a line nor before one, so beyond the plan's outermost walls

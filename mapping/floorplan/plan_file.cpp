@@ -55,7 +55,7 @@ FloorPlan readFloorPlan(const std::filesystem::path& file, const PlanFileOptions
   FloorPlan plan;
   for (const Polyline& polyline : drawing.lines) {
     for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {
-      const PlanLine line{scale * polyline[i], scale * polyline[i + 1], Eigen::Vector2d::Zero(), true};
+      const PlanLine line{scale * polyline[i], scale * polyline[i + 1], Eigen::Vector2d::Zero(), true, 0};
       if (line.lengthM() >= kShortest_m) {
         plan.lines.push_back(line);
       }
@@ -69,6 +69,7 @@ FloorPlan readFloorPlan(const std::filesystem::path& file, const PlanFileOptions
     throw base::Error(base::ErrorCode::kInput, "holds more than 200000 lines" + where + ": leave the walls only", file.string());
   }
   checkSize(plan, file, scale);
+  numberRooms(plan);
   return plan;
 }
 

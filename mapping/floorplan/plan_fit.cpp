@@ -53,12 +53,16 @@ class Fitter {
     }
     alignAll();
     weighAll();
-    return choose();
+    PlanFit chosen = choose();
+    if (!fits_.empty()) {
+      checkScale(chosen);
+    }
+    return chosen;
   }
 
  private:
   void alignAll() {
-    const int stride = static_cast<int>(std::max<std::size_t>(1, sketch_.walls.size() / kCoarseWalls));
+    const int every = static_cast<int>(stride());
     std::vector<Eigen::Isometry2d> starts;
     if (expected_) {
       starts.push_back(*expected_);
@@ -67,11 +71,11 @@ class Fitter {
       starts.push_back(candidate.T_plan_level);
     }
     for (const Eigen::Isometry2d& start : starts) {
-      const PlanAlignment coarse = alignToPlan(sketch_, grid_, start, stride);
+      const PlanAlignment coarse = alignToPlan(sketch_, grid_, start, every);
       if (coarse.status == PlanAlignmentStatus::kTooFewPairs || isKnown(coarse.T_plan_level)) {
         continue;
       }
-      alignments_.push_back(stride == 1 ? coarse : alignToPlan(sketch_, grid_, coarse.T_plan_level, 1));
+      alignments_.push_back(every == 1 ? coarse : alignToPlan(sketch_, grid_, coarse.T_plan_level, 1));
     }
   }
 
@@ -96,6 +100,7 @@ class Fitter {
       PlanFit fit;
       fit.T_plan_level = alignment.T_plan_level;
       fit.figures = weighPlan(sketch_, plan_, grid_, alignment.T_plan_level, {config_.on_line_m, config_.doorway_m});
+      fit.moved_room = findMovedRoom(sketch_, plan_, alignment.T_plan_level);
       judge(alignment, fit);
       fits_.push_back(std::move(fit));
     }
@@ -109,6 +114,7 @@ class Fitter {
   void judge(const PlanAlignment& alignment, PlanFit& fit) const {
     const PlanFigures& f = fit.figures;
     const double max_crossed_m = std::max(config_.max_crossed_m, config_.max_crossed_share * f.supported_m);
+    const double max_missing_m = std::max(config_.max_missing_m, config_.max_missing_share * f.supported_m);
     const auto refuse = [&](PlanFitStatus status, const std::string& reason) {
       fit.status = status;
       fit.reason = reason;
@@ -122,6 +128,16 @@ class Fitter {
     } else if (f.crossed_m > max_crossed_m) {
       refuse(PlanFitStatus::kCrossed, metres(f.crossed_m) + " of the plan's walls lead over open floor, doorways not counted; at most " +
                                           metres(max_crossed_m) + " may");
+    } else if (f.missing_m > max_missing_m) {
+      refuse(PlanFitStatus::kMissing,
+             metres(f.missing_m) +
+                 " of the plan's walls were not seen although nothing stands before them, doorways not counted; at most " +
+                 metres(max_missing_m) + " may be missing");
+    } else if (fit.moved_room.gain_share > config_.max_moved_share) {
+      refuse(PlanFitStatus::kMovedRoom, "a room was seen " + toFixedText(fit.moved_room.shift_plan.norm(), 2) +
+                                            " m beside where it is drawn: " + percent(fit.moved_room.gain_share) +
+                                            " more of its walls lie on the map's there; at most " + percent(config_.max_moved_share) +
+                                            " may");
     } else if (f.floor_outside_m2 > config_.max_floor_outside_m2) {
       refuse(PlanFitStatus::kOutside, toFixedText(f.floor_outside_m2, 1) + " m2 of floor were seen where the plan has no room; at most " +
                                           toFixedText(config_.max_floor_outside_m2, 1) + " m2 may be");
@@ -140,6 +156,48 @@ class Fitter {
       fit.status = PlanFitStatus::kFitted;
     }
   }
+
+  /// A plan of the wrong size fits in one corner. The map is tried at other sizes, from where it lies.
+  void checkScale(PlanFit& fit) const {
+    double best_share = fit.figures.on_plan_share + config_.scale_gain;
+    for (int percent_larger = -20; percent_larger <= 25; ++percent_larger) {
+      const double scale = 1.0 + percent_larger / 100.0;
+      if (std::abs(percent_larger) < 2) {
+        continue;
+      }
+      WallSketch scaled;
+      for (std::size_t i = 0; i < sketch_.walls.size(); i += stride()) {
+        const WallPoint& wall = sketch_.walls[i];
+        scaled.walls.push_back({middle_level_ + scale * (wall.point_level - middle_level_), wall.normal_level});
+      }
+      const PlanAlignment alignment = alignToPlan(scaled, grid_, fit.T_plan_level, 1);
+      const double share = onPlanShare(scaled, alignment.T_plan_level);
+      if (share > best_share) {
+        best_share = share;
+        fit.better_scale = 1.0 / scale;
+      }
+    }
+    if (fit.better_scale == 1.0) {
+      return;
+    }
+    const std::string hint = "at " + toFixedText(fit.better_scale, 2) + " times the plan's size " + percent(best_share) +
+                             " of the upright surface seen would lie on its walls";
+    if (fit.status == PlanFitStatus::kFitted || fit.status == PlanFitStatus::kAmbiguous) {
+      fit.status = PlanFitStatus::kWrongScale;
+      fit.reason = hint + ", and " + percent(fit.figures.on_plan_share) + " do: its scale is wrong";
+    } else {
+      fit.reason += "; " + hint;
+    }
+  }
+
+  [[nodiscard]] double onPlanShare(const WallSketch& sketch, const Eigen::Isometry2d& T_plan_level) const {
+    const auto on_plan = std::count_if(sketch.walls.begin(), sketch.walls.end(), [&](const WallPoint& wall) {
+      return grid_.findNearest(T_plan_level * wall.point_level, T_plan_level.linear() * wall.normal_level, config_.on_line_m).has_value();
+    });
+    return static_cast<double>(on_plan) / static_cast<double>(sketch.walls.size());
+  }
+
+  [[nodiscard]] std::size_t stride() const { return std::max<std::size_t>(1, sketch_.walls.size() / kCoarseWalls); }
 
   [[nodiscard]] PlanFit choose() const {
     if (fits_.empty()) {
@@ -192,6 +250,8 @@ std::vector<std::string> PlanFitConfig::validate() const {
   rules.atLeast("min_seen_m", min_seen_m, 0.0);
   rules.between("min_on_plan_share", min_on_plan_share, 0.0, 1.0).between("min_supported_share", min_supported_share, 0.0, 1.0);
   rules.atLeast("max_crossed_m", max_crossed_m, 0.0).between("max_crossed_share", max_crossed_share, 0.0, 1.0);
+  rules.atLeast("max_missing_m", max_missing_m, 0.0).between("max_missing_share", max_missing_share, 0.0, 1.0);
+  rules.between("max_moved_share", max_moved_share, 0.0, 1.0).greater("scale_gain", scale_gain, 0.0);
   rules.atLeast("max_floor_outside_m2", max_floor_outside_m2, 0.0).between("max_beyond_share", max_beyond_share, 0.0, 1.0);
   rules.greater("max_rms_m", max_rms_m, 0.0).between("on_line_m", on_line_m, 0.01, 0.5).atLeast("doorway_m", doorway_m, 0.0);
   rules.between("twin_share", twin_share, 0.0, 1.0)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/enum_table.h"
+#include "mapping/floorplan/moved_room.h"
 #include "mapping/floorplan/plan_evidence.h"
 #include "mapping/floorplan/plan_search.h"
 
@@ -17,13 +18,17 @@ namespace oikos::mapping {
 struct PlanFitConfig {
   PlanSearchConfig search;
   double min_seen_m = 6.0;            ///< of walls; a map with less cannot tell one plan from another
-  double min_on_plan_share = 0.4;     ///< of the upright surface seen; the rest may be furniture
-  double min_supported_share = 0.3;   ///< of the plan's walls; not asked of a fit where the drive was expected to begin
+  double min_on_plan_share = 0.5;     ///< of the upright surface seen; the rest may be furniture
+  double min_supported_share = 0.4;   ///< of the plan's walls; not asked of a fit where the drive was expected to begin
   double max_crossed_m = 0.6;         ///< of drawn walls where there is floor, beyond a doorway's width each
   double max_crossed_share = 0.02;    ///< of the plan's walls that were seen; the greater of both limits counts
-  double max_floor_outside_m2 = 1.0;  ///< of floor where the plan has no room
+  double max_missing_m = 1.5;         ///< of drawn walls that nothing hides, but that were not seen, beyond a doorway's width each
+  double max_missing_share = 0.03;    ///< of the plan's walls that were seen; the greater of both limits counts
+  double max_floor_outside_m2 = 0.5;  ///< of floor where the plan has no room
   double max_beyond_share = 0.04;     ///< of the upright surface seen: beyond the plan's outermost walls
   double max_rms_m = 0.04;            ///< of walls from their lines
+  double max_moved_share = 0.12;      ///< of a room's walls: so much more seen beside their place, and the room is drawn wrongly
+  double scale_gain = 0.08;           ///< so much more of the upright surface on a plan of another size, and the size is wrong
   double on_line_m = 0.08;            ///< a surface that is nearer to a line is on it
   double doorway_m = 1.2;             ///< widest opening that the plan need not show
   double twin_share = 0.85;           ///< another place with so much of the best one's support is as good
@@ -40,9 +45,13 @@ struct PlanFitConfig {
     visitor("min_supported_share", min_supported_share);
     visitor("max_crossed_m", max_crossed_m);
     visitor("max_crossed_share", max_crossed_share);
+    visitor("max_missing_m", max_missing_m);
+    visitor("max_missing_share", max_missing_share);
     visitor("max_floor_outside_m2", max_floor_outside_m2);
     visitor("max_beyond_share", max_beyond_share);
     visitor("max_rms_m", max_rms_m);
+    visitor("max_moved_share", max_moved_share);
+    visitor("scale_gain", scale_gain);
     visitor("on_line_m", on_line_m);
     visitor("doorway_m", doorway_m);
     visitor("twin_share", twin_share);
@@ -60,6 +69,9 @@ enum class PlanFitStatus {
   kOpenDirection,  ///< the walls on lines run one way only: where along them is not known
   kOffPlan,        ///< what was seen is not drawn
   kCrossed,        ///< what is drawn leads over floor
+  kMissing,        ///< what is drawn and nothing hides was not seen
+  kMovedRoom,      ///< a room was seen beside where it is drawn
+  kWrongScale,     ///< the plan fits better at another size
   kOutside,        ///< floor or walls were seen where the plan has no room
   kLoose,          ///< the walls lie too far from their lines
   kTooLittle,      ///< too little of the plan was seen
@@ -72,6 +84,9 @@ constexpr auto enumTable(PlanFitStatus) {
                                                        {PlanFitStatus::kOpenDirection, "open-direction"},
                                                        {PlanFitStatus::kOffPlan, "off-plan"},
                                                        {PlanFitStatus::kCrossed, "crossed"},
+                                                       {PlanFitStatus::kMissing, "missing"},
+                                                       {PlanFitStatus::kMovedRoom, "moved-room"},
+                                                       {PlanFitStatus::kWrongScale, "wrong-scale"},
                                                        {PlanFitStatus::kOutside, "outside"},
                                                        {PlanFitStatus::kLoose, "loose"},
                                                        {PlanFitStatus::kTooLittle, "too-little"},
@@ -83,8 +98,10 @@ struct [[nodiscard]] PlanFit {
   PlanFitStatus status = PlanFitStatus::kTooFewWalls;
   std::string reason;                                              ///< for a person: the figure that decides, and its limit; empty: fitted
   Eigen::Isometry2d T_plan_level = Eigen::Isometry2d::Identity();  ///< of the best place, fitted or not
-  PlanFigures figures;                                             ///< there
-  double runner_up = 0.0;  ///< support of the best other place that nothing speaks against / the best one's; 0: there is none
+  MovedRoom moved_room;       ///< the room of the plan that the map shows beside its place most clearly, if any
+  PlanFigures figures;        ///< there
+  double better_scale = 1.0;  ///< so many times its size the plan would fit clearly better; 1: it would not
+  double runner_up = 0.0;     ///< support of the best other place that nothing speaks against / the best one's; 0: there is none
 };
 
 /// `T_plan_level_expected`: where the map would lie if the drive began where it is said to; decides between twins and is a start of its
