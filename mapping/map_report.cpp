@@ -120,6 +120,27 @@ VolumeFacts volumeFacts(const MapFacts& facts) {
   return v;
 }
 
+PlanFacts planFacts(const PlanPlacement& placement) {
+  PlanFacts facts;
+  const PlanFigures& figures = placement.fit.figures;
+  facts.T_plan_map = placement.T_plan_map;
+  facts.T_map_base = placement.T_map_base;
+  facts.plan_m = figures.plan_m;
+  facts.supported_share = figures.supported_share;
+  facts.seen_m = figures.seen_m;
+  facts.on_plan_share = figures.on_plan_share;
+  facts.rms_m = figures.rms_m;
+  facts.crossed_m = figures.crossed_m;
+  facts.missing_m = figures.missing_m;
+  facts.floor_outside_m2 = figures.floor_outside_m2;
+  facts.beyond_share = figures.beyond_share;
+  const Eigen::Isometry2d T_map_plan = placement.T_plan_map.inverse();
+  for (const PlanLine& line : placement.plan.lines) {
+    facts.lines_map.push_back({T_map_plan * line.from_plan, T_map_plan * line.to_plan});
+  }
+  return facts;
+}
+
 GridPicture gridPicture(const OccupancyGrid& grid) {
   GridPicture picture;
   picture.resolution_m = grid.resolution_m;
@@ -147,6 +168,9 @@ MapReport makeReport(const MapFacts& facts) {
   report.floor = {facts.floor.status == FloorStatus::kFound ? FloorSighting::kFound : FloorSighting::kNotInSight,
                   facts.floor.camera_height_m};
   report.volume = volumeFacts(facts);
+  if (facts.placement) {
+    report.plan = planFacts(*facts.placement);
+  }
   report.grid = gridPicture(facts.fused.grid);
   if (facts.odometry_without_mount) {
     report.warnings.emplace_back(

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/recording/frame_stream.h"
+#include "mapping/floorplan/plan_task.h"
 #include "mapping/graph/back_end.h"
 #include "mapping/report/report.h"
 #include "mapping/volume/map_builder.h"
@@ -20,7 +22,8 @@ struct MapFacts {
   const FusedMap& fused;
   const std::vector<char>& carried;  ///< one a frame: carried by odometry
   const VolumeConfig& volume;
-  bool odometry_without_mount = false;  ///< there is an odometry.txt that could not be used
+  bool odometry_without_mount = false;            ///< there is an odometry.txt that could not be used
+  const std::optional<PlanPlacement>& placement;  ///< if there was a plan
 };
 
 [[nodiscard]] MapReport makeReport(const MapFacts& facts);

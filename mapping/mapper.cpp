@@ -12,6 +12,7 @@
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
 #include "core/recording/frame_stream.h"
+#include "mapping/floorplan/wall_views.h"
 #include "mapping/graph/frame_poses.h"
 #include "mapping/graph/g2o_file.h"
 #include "mapping/graph/keyframe_store.h"
@@ -187,7 +188,13 @@ class Mapper {
   void placeInMap() {
     base::reportProgress(run_.progress, {"looking for the floor", 0, 0});
     floor_ = findFloor(views(), fusionInput(), config_.volume);
-    const Eigen::Isometry3d T_map_world = mapFrame(floor_, optimised_.T_world_frame.front(), T_base_camera_);
+    moveWorld(mapFrame(floor_, optimised_.T_world_frame.front(), T_base_camera_));
+    if (run_.plan) {
+      layOntoPlan(*run_.plan);
+    }
+  }
+
+  void moveWorld(const Eigen::Isometry3d& T_map_world) {
     for (Node& node : drive_.graph.nodes) {
       node.T_world_camera = T_map_world * node.T_world_camera;
     }
@@ -196,6 +203,21 @@ class Mapper {
         T = T_map_world * T;
       }
     }
+  }
+
+  /// What mapFrame gave is the level frame, with the robot's first place at its origin.
+  void layOntoPlan(const PlanTask& task) {
+    if (floor_.status != FloorStatus::kFound) {
+      throw base::Error(base::ErrorCode::kInput, "the map cannot be laid onto it: no floor was in sight", task.source);
+    }
+    const WallSketch sketch = sketchWalls(views(), fusionInput(), config_.volume.surface, config_.walls);
+    base::reportProgress(run_.progress, {"looking for the place on the plan", 0, 0});
+    placement_ = placeOnPlan(sketch, task, config_.floor_plan);
+    const Eigen::Isometry2d T_map_level = placement_->T_map_base;
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear().topLeftCorner<2, 2>() = T_map_level.linear();
+    T.translation().head<2>() = T_map_level.translation();
+    moveWorld(T);
   }
 
   void fuse() {
@@ -249,8 +271,8 @@ class Mapper {
     }
     writeG2o(drive_.graph, optimised_.believed, folder_ / "graph.g2o");
     base::writeFileAtomically(folder_ / "config.toml", base::writeConfig(config_));
-    const MapReport report =
-        makeReport({recording_, statistics_, drive_, optimised_, floor_, fused_, carried_, config_.volume, odometry_without_mount_});
+    const MapReport report = makeReport(
+        {recording_, statistics_, drive_, optimised_, floor_, fused_, carried_, config_.volume, odometry_without_mount_, placement_});
     base::writeFileAtomically(folder_ / "report.json", reportJson(report));
     base::writeFileAtomically(folder_ / "report.html", reportHtml(report));
     clock_.end();
@@ -280,6 +302,7 @@ class Mapper {
     }
     result.submaps = optimised_.submaps_left;
     result.floor_found = floor_.status == FloorStatus::kFound;
+    result.placement = placement_;
     return result;
   }
 
@@ -297,6 +320,7 @@ class Mapper {
   BackEndResult optimised_;
   std::vector<char> carried_;
   FloorResult floor_;
+  std::optional<PlanPlacement> placement_;
   FusedMap fused_;
 };
 

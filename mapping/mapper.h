@@ -12,6 +12,7 @@
 #include "core/base/enum_table.h"
 #include "core/base/progress.h"
 #include "core/recording/recording.h"
+#include "mapping/floorplan/plan_task.h"
 #include "mapping/graph/back_end.h"
 #include "mapping/graph/front_end.h"
 #include "mapping/graph/pairwise_front_end.h"
@@ -33,6 +34,8 @@ struct MapConfig {
   PairwiseConfig pairwise;
   BackEndConfig back_end;
   VolumeConfig volume;
+  WallScanConfig walls;
+  PlanFitConfig floor_plan;
   int images_in_memory = 40;  ///< keyframe pyramids kept; the others are read again
 
   template <class Visitor>
@@ -42,6 +45,8 @@ struct MapConfig {
     visitor("pairwise", pairwise);
     visitor("back_end", back_end);
     visitor("volume", volume);
+    visitor("walls", walls);
+    visitor("floor_plan", floor_plan);
     visitor("images_in_memory", images_in_memory);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
@@ -52,7 +57,8 @@ struct MapRun {
   int threads = 1;
   std::int64_t seed = 0;
   std::optional<Eigen::Isometry3d> T_base_camera =
-      std::nullopt;  ///< the camera's mount; nothing: that of the recording's calibration, if it has one
+      std::nullopt;                             ///< the camera's mount; nothing: that of the recording's calibration, if it has one
+  std::optional<PlanTask> plan = std::nullopt;  ///< the map is laid onto it; without one its frame is the base at the first frame
   base::ProgressSink progress = {};
 };
 
@@ -66,10 +72,12 @@ struct [[nodiscard]] MapResult {
   int loops = 0;
   int submaps = 0;  ///< parts of the drive that no loop has joined; 1 is what one wants
   bool floor_found = false;
+  std::optional<PlanPlacement> placement = std::nullopt;  ///< if there was a plan
 };
 
-/// Builds the metric map of a recorded drive: track → close loops → refine → find the floor → fuse. Writes every file of `map/` into
-/// `map_folder`, which exists and is empty. Throws base::Error.
+/// Builds the metric map of a recorded drive: track → close loops → refine → find the floor → lay it onto the plan → fuse. Writes every
+/// file of `map/` into `map_folder`, which exists and is empty. Throws base::Error; kInput for a plan that does not fit, before anything is
+/// fused.
 MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run,
                    const std::filesystem::path& map_folder);
 

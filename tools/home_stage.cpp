@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/home_stage.h"
 
+#include <cmath>
 #include <string>
 #include <system_error>
 
 #include "core/base/atomic_file.h"
+#include "core/base/degrees.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/base/posix_file.h"
 #include "tools/interrupts.h"
 
@@ -15,11 +18,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kSingleRoomHome =
-    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-    "<apartment id=\"home\" name=\"Home\" version=\"1\">\n"
-    "  <room id=\"room\" name=\"Room\"/>\n"
-    "</apartment>\n";
+/// The dock is at the origin unless it is said where.
+std::string singleRoomHome(const Eigen::Isometry2d& T_map_dock) {
+  std::string dock;
+  if (!T_map_dock.isApprox(Eigen::Isometry2d::Identity(), 1e-12)) {
+    const double yaw_rad = std::atan2(T_map_dock.linear()(1, 0), T_map_dock.linear()(0, 0));
+    dock = "  <dock pose=\"" + base::toFixedText(T_map_dock.translation().x(), 3) + " " +
+           base::toFixedText(T_map_dock.translation().y(), 3) + " 0 0 0 " + base::toFixedText(yaw_rad / base::kRadPerDeg, 2) + "\"/>\n";
+  }
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+         "<apartment id=\"home\" name=\"Home\" version=\"1\">\n" +
+         dock +
+         "  <room id=\"room\" name=\"Room\"/>\n"
+         "</apartment>\n";
+}
 
 /// Without a slash at the end, so that it has a name.
 fs::path withoutTrailingSlash(const fs::path& path) {
@@ -70,9 +82,9 @@ fs::path HomeStage::mapFolder() const {
   return staging_->path() / "map";
 }
 
-void HomeStage::commit() {
+void HomeStage::commit(const Eigen::Isometry2d& T_map_dock) {
   if (is_new_ || !fs::exists(home_ / "home.xml")) {
-    base::writeFileAtomically(staging_->path() / "home.xml", kSingleRoomHome);
+    base::writeFileAtomically(staging_->path() / "home.xml", singleRoomHome(T_map_dock));
   }
   base::syncTree(staging_->path());
   interrupts_->runUninterrupted([this] { publish(); }, "interrupted after the map in " + home_.string() + " was finished");

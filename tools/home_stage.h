@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <memory>
 
@@ -23,8 +24,9 @@ class HomeStage {
   /// Empty, to be filled.
   [[nodiscard]] std::filesystem::path mapFolder() const;
 
-  /// Brings everything to the disk and puts it in place; `home.xml` is written if there is none. Throws Error{kIo}.
-  void commit();
+  /// Brings everything to the disk and puts it in place; `home.xml` is written if there is none, with its dock at `T_map_dock`. Throws
+  /// Error{kIo}.
+  void commit(const Eigen::Isometry2d& T_map_dock = Eigen::Isometry2d::Identity());
 
  private:
   void publish();

@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -15,6 +16,7 @@
 #include "core/base/config.h"
 #include "core/base/number_text.h"
 #include "core/recording/recording.h"
+#include "mapping/floorplan/plan_file.h"
 #include "mapping/robot_mount.h"
 #include "tools/command.h"
 #include "tools/map_home.h"
@@ -27,6 +29,7 @@ constexpr const char* kExamples =
     "  oikos map ~/drives/flat-3 --out ~/homes/flat-3\n"
     "  oikos map rgbd_dataset_freiburg1_rpy --camera tum-fr1 --out desk --resolution 0.02\n"
     "  oikos map ~/drives/flat-3 --out flat-3 --robot robot.urdf --base-link base_footprint --camera-link camera_optical\n"
+    "  oikos map ~/drives/flat-3 --out flat-3 --floorplan flat-3.svg --floorplan-scale 0.01\n"
     "  oikos map ~/drives/flat-3 --out flat-3 --set volume.every_frame=true --json";
 
 struct MapOptions {
@@ -35,6 +38,9 @@ struct MapOptions {
   std::string camera;
   std::filesystem::path robot;
   mapping::MountLinks links;
+  std::filesystem::path floor_plan;
+  std::optional<double> floor_plan_scale;
+  std::string floor_plan_layer;
   std::string features;
   std::string resolution;
   bool every_frame = false;
@@ -50,6 +56,12 @@ void declareOptions(CLI::App& command, MapOptions& options) {
   command.add_option("--resolution", options.resolution, "edge of a voxel in metres, 0.01 to 1; default 0.05");
   command.add_flag("--every-frame", options.every_frame, "build the volume from every frame, not from keyframes only");
   command.add_option("--set", options.settings, "any parameter, as KEY=VALUE; may be repeated")->allow_extra_args(false);
+  auto* const plan = command.add_option("--floorplan", options.floor_plan,
+                                        "drawing of the walls, .svg or .dxf: the map is turned to its axes, or refused if it does not fit");
+  command.add_option("--floorplan-scale", options.floor_plan_scale, "metres a unit of the drawing; default: what a .dxf says, else 1")
+      ->needs(plan)
+      ->check(CLI::PositiveNumber);
+  command.add_option("--floorplan-layer", options.floor_plan_layer, "the drawing's layer that holds the walls; default: all")->needs(plan);
   auto* const robot = command.add_option("--robot", options.robot, "URDF of the robot that carries the camera");
   auto* const camera_link = command.add_option("--camera-link", options.links.camera, "its optical link (z forward, y down)");
   auto* const base_link = command.add_option("--base-link", options.links.base, "its base link (x forward, z up, on the floor)");
@@ -80,6 +92,14 @@ std::optional<Eigen::Isometry3d> mountOf(const MapOptions& options, const record
   return options.robot.empty() ? recording.T_base_camera() : mapping::readMount(options.robot, options.links);
 }
 
+std::optional<mapping::PlanTask> planOf(const MapOptions& options) {
+  if (options.floor_plan.empty()) {
+    return std::nullopt;
+  }
+  return mapping::PlanTask{mapping::readFloorPlan(options.floor_plan, {options.floor_plan_scale, options.floor_plan_layer}),
+                           options.floor_plan.string()};
+}
+
 struct Summary {
   std::filesystem::path home;
   mapping::MapResult result;
@@ -90,7 +110,7 @@ struct Summary {
 
 void printJson(const Summary& summary) {
   const mapping::MapResult& result = summary.result;
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"home", summary.home.string()},
       {"frames", result.frames},
       {"skipped_frames", result.skipped_frames},
@@ -103,6 +123,13 @@ void printJson(const Summary& summary) {
       {"elapsed_s", summary.elapsed_s},
       {"frames_per_s", summary.framesPerSecond()},
   };
+  if (result.placement) {
+    const mapping::PlanFigures& figures = result.placement->fit.figures;
+    json["floor_plan"] = {{"file", result.placement->source},
+                          {"residual_rms_m", figures.rms_m},
+                          {"plan_walls_seen_share", figures.supported_share},
+                          {"upright_surface_on_plan_share", figures.on_plan_share}};
+  }
   std::cout << json.dump(2) << '\n';
 }
 
@@ -126,14 +153,20 @@ void printText(const Summary& summary) {
   if (!result.floor_found) {
     std::cout << "no floor was in sight: z = 0 is the first camera, and the grid is unknown\n";
   }
+  if (result.placement) {
+    const mapping::PlanFigures& figures = result.placement->fit.figures;
+    std::cout << "laid onto " << result.placement->source << ": " << base::toFixedText(100.0 * figures.supported_share, 0)
+              << " % of its walls were seen, " << base::toFixedText(1000.0 * figures.rms_m, 0) << " mm from their lines\n";
+  }
   std::cout << "map: " << (summary.home / "map").string() << "\nreport: " << (summary.home / "map" / "report.html").string() << '\n';
 }
 
 Summary buildHome(const MapOptions& options, const Session& session) {
   const auto begin = std::chrono::steady_clock::now();
   const mapping::MapConfig config = configOf(options, session.options);
+  std::optional<mapping::PlanTask> plan = planOf(options);
   const auto recording = recording::openRecording(options.recording, {.camera = options.camera});
-  const mapping::MapResult result = mapIntoHome({*recording, options.home, config, mountOf(options, *recording)}, session);
+  const mapping::MapResult result = mapIntoHome({*recording, options.home, config, mountOf(options, *recording), std::move(plan)}, session);
   return {options.home, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "semantic/xml/home_reader.h"
+#include "tools/home_plan.h"
 #include "tools/home_stage.h"
 #include "tools/room_clouds.h"
 #include "tools/terminal_progress.h"
@@ -29,17 +30,37 @@ std::optional<semantic::Home> findHome(const std::filesystem::path& home) {
 
 }  // namespace
 
+Eigen::Isometry2d floorPose(const semantic::Pose& pose) {
+  return Eigen::Translation2d(pose.position_m.head<2>()) * Eigen::Rotation2Dd(pose.roll_pitch_yaw_rad.z());
+}
+
+/// What the map is laid onto: the home's outlines, else the drawing that was given, if any.
+std::optional<mapping::PlanTask> planFor(const MapJob& job, const std::optional<semantic::Home>& known) {
+  const std::string file = (job.home / "home.xml").string();
+  mapping::FloorPlan outlines = known ? planOf(*known) : mapping::FloorPlan{};
+  if (outlines.lines.empty()) {
+    return job.plan;
+  }
+  if (job.plan) {
+    throw base::Error(base::ErrorCode::kUsage, "has the outlines of its rooms, which the map is laid onto; it needs no --floorplan", file);
+  }
+  return mapping::PlanTask{std::move(outlines), file, mapping::PlanFrame::kPlan, floorPose(known->T_map_dock)};
+}
+
 mapping::MapResult mapIntoHome(const MapJob& job, const Session& session) {
   TerminalProgress progress(session.options);
-  const mapping::MapRun run{
-      .threads = session.options.threads, .seed = session.options.seed, .T_base_camera = job.T_base_camera, .progress = progress.sink()};
   const std::optional<semantic::Home> known = findHome(job.home);
+  const mapping::MapRun run{.threads = session.options.threads,
+                            .seed = session.options.seed,
+                            .T_base_camera = job.T_base_camera,
+                            .plan = planFor(job, known),
+                            .progress = progress.sink()};
   HomeStage stage(job.home, session.interrupts);
   const mapping::MapResult result = mapping::buildMap(job.recording, job.config, run, stage.mapFolder());
   if (known) {
     writeRoomClouds(*known, stage.mapFolder());
   }
-  stage.commit();
+  stage.commit(result.placement ? result.placement->T_map_base : Eigen::Isometry2d::Identity());
   return result;
 }
 

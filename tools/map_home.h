@@ -13,11 +13,13 @@ struct MapJob {
   const recording::Recording& recording;
   std::filesystem::path home;
   mapping::MapConfig config;
-  std::optional<Eigen::Isometry3d> T_base_camera;  ///< the mount
+  std::optional<Eigen::Isometry3d> T_base_camera;        ///< the mount
+  std::optional<mapping::PlanTask> plan = std::nullopt;  ///< a drawing; a home that has outlines is its own
 };
 
 /// Maps a drive into a home, which is made if there is none: the old map or the new one is there at any time. Rooms with outlines get their
-/// clouds. Throws Error.
+/// clouds, and the map ends in their frame, wherever the drive began. Throws Error; kInput if the map does not fit, kUsage for a drawing
+/// beside outlines.
 mapping::MapResult mapIntoHome(const MapJob& job, const Session& session);
 
 }  // namespace oikos::tools

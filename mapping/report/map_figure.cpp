@@ -188,11 +188,27 @@ std::string scaleBar(const View& view) {
          attribute("x", 0.5 * (left + right)) + attribute("y", y - 8.0) + ">" + label + "</text>\n";
 }
 
+std::string planLines(const MapReport& report, const View& view) {
+  std::string lines;
+  if (report.plan) {
+    for (const auto& [from_map, to_map] : report.plan->lines_map) {
+      lines += "M" + pointText(view(from_map)) + "L" + pointText(view(to_map));
+    }
+  }
+  return lines.empty() ? "" : "<path class=\"plan\" d=\"" + lines + "\"/>\n";
+}
+
 Box shownPart(const MapReport& report, const cv::Rect& known) {
   Box shown;
   for (const Trajectory* trajectory : {&report.trajectory, &report.trajectory_before_loops}) {
     for (const recording::StampedPose& pose : *trajectory) {
       shown.extend(groundPoint(pose));
+    }
+  }
+  if (report.plan) {
+    for (const auto& [from_map, to_map] : report.plan->lines_map) {
+      shown.extend(from_map);
+      shown.extend(to_map);
     }
   }
   return known.empty() ? shown : shown.merged(boxOf(known, report.grid));
@@ -207,6 +223,7 @@ std::string mapFigure(const MapReport& report) {
   std::string svg = "<svg class=\"map\" viewBox=\"0 0 " + numberText(kWidth, 0) + " " + numberText(view.height(), 0) +
                     "\" role=\"img\" aria-label=\"The camera's path over the floor, from above\">\n";
   svg += gridImage(report.grid, known, view);
+  svg += planLines(report, view);
   svg += pathLine(report.trajectory_before_loops, view, "before");
   svg += loopLines(report, view);
   svg += pathLine(report.trajectory, view, "after");

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,22 @@ struct VolumeFacts {
   Eigen::Vector3d box_max_m = Eigen::Vector3d::Zero();
 };
 
+/// How the map lies on the floor plan; what the figures mean stands with PlanFigures.
+struct PlanFacts {
+  Eigen::Isometry2d T_plan_map = Eigen::Isometry2d::Identity();
+  Eigen::Isometry2d T_map_base = Eigen::Isometry2d::Identity();  ///< the robot at the first frame
+  double plan_m = 0.0;
+  double supported_share = 0.0;
+  double seen_m = 0.0;
+  double on_plan_share = 0.0;
+  double rms_m = 0.0;
+  double crossed_m = 0.0;
+  double missing_m = 0.0;
+  double floor_outside_m2 = 0.0;
+  double beyond_share = 0.0;
+  std::vector<std::array<Eigen::Vector2d, 2>> lines_map;  ///< the plan's
+};
+
 /// The 2D grid as `grid.pgm` has it: row 0 is the greatest y; 0 occupied, 254 free, anything else unknown.
 struct GridPicture {
   cv::Mat cells;                                       ///< CV_8UC1; empty: there is none
@@ -126,6 +143,7 @@ struct MapReport {
   std::vector<LoopFacts> loops;
   OptimisationFacts optimisation;
   FloorFacts floor;
+  std::optional<PlanFacts> plan;  ///< nothing: there was no floor plan
   VolumeFacts volume;
   GridPicture grid;
   std::vector<std::string> warnings;  ///< one line each, for a person

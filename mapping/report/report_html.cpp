@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/degrees.h"
 #include "mapping/report/figures.h"
 #include "mapping/report/frame_plot.h"
 #include "mapping/report/html.h"
@@ -66,6 +67,7 @@ std::string mapSection(const MapReport& report, const ReportFigures& figures) {
   legend += figures.loops_accepted < static_cast<int>(report.loops.size()) ? key("dash key-refused", "loop refused") : "";
   legend += key("box dot key-start", "start") + key("box key-end", "end");
   legend += report.grid.cells.empty() ? "" : key("box key-occupied", "occupied") + key("box key-free", "known free");
+  legend += report.plan ? key("key-plan", "floor plan") : "";
   return section("Map from above", mapFigure(report) + "<div class=\"legend\">\n" + legend + "</div>\n");
 }
 
@@ -133,6 +135,35 @@ std::string volumeSection(const MapReport& report) {
                                    {"extent x × y × z", numberText(size_m.x(), 2) + " × " + numberText(size_m.y(), 2) + " × " +
                                                             numberText(size_m.z(), 2) + " m"},
                                    {"camera over floor", floor_found ? lengthText(report.floor.camera_height_m) : "floor not in sight"}}));
+}
+
+std::string percentText(double share) {
+  return numberText(100.0 * share, 0) + " %";
+}
+
+std::string planSection(const std::optional<PlanFacts>& plan) {
+  if (!plan) {
+    return "";
+  }
+  const auto degrees = [](const Eigen::Isometry2d& T) {
+    return numberText(std::atan2(T.linear()(1, 0), T.linear()(0, 0)) / base::kRadPerDeg, 1) + "°";
+  };
+  const auto place = [](const Eigen::Isometry2d& T) {
+    return numberText(T.translation().x(), 3) + " / " + numberText(T.translation().y(), 3) + " m";
+  };
+  return section("Floor plan", factTable({{"map's origin in the plan, x / y", place(plan->T_plan_map)},
+                                          {"map's turn in the plan", degrees(plan->T_plan_map)},
+                                          {"start in the map, x / y", place(plan->T_map_base)},
+                                          {"heading at the start", degrees(plan->T_map_base)},
+                                          {"walls of the plan", numberText(plan->plan_m, 1) + " m"},
+                                          {"of these seen", percentText(plan->supported_share)},
+                                          {"upright surface seen", numberText(plan->seen_m, 1) + " m"},
+                                          {"of this on the plan", percentText(plan->on_plan_share)},
+                                          {"residual, root mean square", numberText(1000.0 * plan->rms_m, 1) + " mm"},
+                                          {"walls over open floor", numberText(plan->crossed_m, 1) + " m"},
+                                          {"walls missing", numberText(plan->missing_m, 1) + " m"},
+                                          {"floor where the plan has no room", numberText(plan->floor_outside_m2, 1) + " m²"},
+                                          {"surface beyond the plan", percentText(plan->beyond_share)}}));
 }
 
 std::string optimisationSection(const OptimisationFacts& optimisation) {
@@ -227,7 +258,7 @@ std::string reportHtml(const MapReport& report) {
   html += mapSection(report, figures);
   html += report.frames.empty() ? "" : plotsSection(report);
   html += "<div class=\"columns\">\n" + recordingSection(report.recording) + trackingSection(report, figures) + volumeSection(report) +
-          optimisationSection(report.optimisation) + "</div>\n";
+          planSection(report.plan) + optimisationSection(report.optimisation) + "</div>\n";
   html += loopsSection(report.loops) + skippedSection(report.recording.messages);
   return page(html);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/degrees.h"
 #include "mapping/report/figures.h"
 #include "mapping/report/json_text.h"
 #include "mapping/report/report.h"
@@ -100,6 +102,25 @@ Json floorJson(const FloorFacts& floor) {
   return json;
 }
 
+Json floorPoseJson(const Eigen::Isometry2d& T) {
+  const double yaw_rad = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
+  return {{"x_m", T.translation().x()}, {"y_m", T.translation().y()}, {"yaw_deg", yaw_rad / base::kRadPerDeg}};
+}
+
+Json planJson(const PlanFacts& plan) {
+  return {{"map_in_plan", floorPoseJson(plan.T_plan_map)},
+          {"start_in_map", floorPoseJson(plan.T_map_base)},
+          {"plan_walls_m", plan.plan_m},
+          {"plan_walls_seen_share", plan.supported_share},
+          {"upright_surface_m", plan.seen_m},
+          {"upright_surface_on_plan_share", plan.on_plan_share},
+          {"residual_rms_m", plan.rms_m},
+          {"walls_over_floor_m", plan.crossed_m},
+          {"walls_missing_m", plan.missing_m},
+          {"floor_outside_m2", plan.floor_outside_m2},
+          {"surface_beyond_share", plan.beyond_share}};
+}
+
 Json volumeJson(const VolumeFacts& volume, const ReportFigures& figures) {
   return {{"resolution_m", volume.resolution_m},       {"voxels_occupied", volume.voxels_occupied},
           {"voxels_free", volume.voxels_free},         {"cells_occupied", volume.cells_occupied},
@@ -138,6 +159,9 @@ std::string reportJson(const MapReport& report) {
   json["loops"] = loopsJson(report, figures);
   json["optimisation"] = optimisationJson(report.optimisation);
   json["floor"] = floorJson(report.floor);
+  if (report.plan) {
+    json["floor_plan"] = planJson(*report.plan);
+  }
   json["map"] = volumeJson(report.volume, figures);
   json["frames"] = framesJson(report);
   return jsonText(json);
