@@ -127,7 +127,6 @@ PlanFacts planFacts(const PlanPlacement& placement) {
   facts.T_map_base = placement.T_map_base;
   facts.plan_m = figures.plan_m;
   facts.supported_share = figures.supported_share;
-  facts.seen_m = figures.seen_m;
   facts.on_plan_share = figures.on_plan_share;
   facts.rms_m = figures.rms_m;
   facts.crossed_m = figures.crossed_m;

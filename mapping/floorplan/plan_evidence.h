@@ -12,7 +12,7 @@ namespace oikos::mapping {
 /// Lengths are of lines and walls as seen from above.
 struct PlanFigures {
   double plan_m = 0.0;           ///< walls that the plan has
-  double seen_m = 0.0;           ///< upright surface that the map has, furniture with it
+  double seen_m = 0.0;           ///< upright surface that the map has, furniture with it; at most: see WallSketch
   double on_plan_share = 0.0;    ///< of that surface: on a line of the plan
   double supported_m = 0.0;      ///< of the plan's walls: seen where they are drawn
   double supported_share = 0.0;  ///< of the plan's walls

@@ -122,8 +122,8 @@ class Fitter {
     if (alignment.status == PlanAlignmentStatus::kDegenerate) {
       refuse(PlanFitStatus::kOpenDirection, "all walls that lie on the plan run one way: where along them the drive was is not known");
     } else if (f.on_plan_share < config_.min_on_plan_share) {
-      refuse(PlanFitStatus::kOffPlan, "only " + percent(f.on_plan_share) + " of the " + metres(f.seen_m) +
-                                          " of upright surface seen lie on the plan's walls; at least " +
+      refuse(PlanFitStatus::kOffPlan, "only " + percent(f.on_plan_share) +
+                                          " of the upright surface seen lie on the plan's walls; at least " +
                                           percent(config_.min_on_plan_share) + " must");
     } else if (f.crossed_m > max_crossed_m) {
       refuse(PlanFitStatus::kCrossed, metres(f.crossed_m) + " of the plan's walls lead over open floor, doorways not counted; at most " +

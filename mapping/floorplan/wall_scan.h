@@ -23,7 +23,7 @@ struct WallSketch {
   std::vector<Eigen::Vector2d> floor_level;  ///< centres of the cells where floor was seen
   double cell_m = 0.05;
 
-  /// About how much of wall was seen.
+  /// How much of wall was seen, at most: noise and furniture's edges spread a surface over neighbouring cells.
   [[nodiscard]] double wallLengthM() const { return static_cast<double>(walls.size()) * cell_m; }
 };
 

@@ -113,7 +113,6 @@ struct PlanFacts {
   Eigen::Isometry2d T_map_base = Eigen::Isometry2d::Identity();  ///< the robot at the first frame
   double plan_m = 0.0;
   double supported_share = 0.0;
-  double seen_m = 0.0;
   double on_plan_share = 0.0;
   double rms_m = 0.0;
   double crossed_m = 0.0;

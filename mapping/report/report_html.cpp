@@ -151,14 +151,13 @@ std::string planSection(const std::optional<PlanFacts>& plan) {
   const auto place = [](const Eigen::Isometry2d& T) {
     return numberText(T.translation().x(), 3) + " / " + numberText(T.translation().y(), 3) + " m";
   };
-  return section("Floor plan", factTable({{"map's origin in the plan, x / y", place(plan->T_plan_map)},
-                                          {"map's turn in the plan", degrees(plan->T_plan_map)},
+  return section("Floor plan", factTable({{"origin of the map in the plan, x / y", place(plan->T_plan_map)},
+                                          {"turn of the map in the plan", degrees(plan->T_plan_map)},
                                           {"start in the map, x / y", place(plan->T_map_base)},
                                           {"heading at the start", degrees(plan->T_map_base)},
                                           {"walls of the plan", numberText(plan->plan_m, 1) + " m"},
                                           {"of these seen", percentText(plan->supported_share)},
-                                          {"upright surface seen", numberText(plan->seen_m, 1) + " m"},
-                                          {"of this on the plan", percentText(plan->on_plan_share)},
+                                          {"upright surface on the plan", percentText(plan->on_plan_share)},
                                           {"residual, root mean square", numberText(1000.0 * plan->rms_m, 1) + " mm"},
                                           {"walls over open floor", numberText(plan->crossed_m, 1) + " m"},
                                           {"walls missing", numberText(plan->missing_m, 1) + " m"},

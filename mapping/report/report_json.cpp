@@ -112,7 +112,6 @@ Json planJson(const PlanFacts& plan) {
           {"start_in_map", floorPoseJson(plan.T_map_base)},
           {"plan_walls_m", plan.plan_m},
           {"plan_walls_seen_share", plan.supported_share},
-          {"upright_surface_m", plan.seen_m},
           {"upright_surface_on_plan_share", plan.on_plan_share},
           {"residual_rms_m", plan.rms_m},
           {"walls_over_floor_m", plan.crossed_m},

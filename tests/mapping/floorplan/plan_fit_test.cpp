@@ -99,7 +99,7 @@ TEST(PlanFit, AnotherHomesPlanIsRefusedForWhatIsNotDrawn) {
   const Rooms other = {box(0.0, 0.0, 5.0, 3.0), box(0.0, 3.12, 3.0, 9.0), box(5.12, -2.0, 8.0, 2.5)};
   const PlanFit fit = fitToPlan(seen(flat(), kStart), planOf(other), {});
   EXPECT_EQ(fit.status, PlanFitStatus::kOffPlan);
-  EXPECT_NE(fit.reason.find("of upright surface seen lie on the plan's walls; at least 50 % must"), std::string::npos) << fit.reason;
+  EXPECT_NE(fit.reason.find("of the upright surface seen lie on the plan's walls; at least 50 % must"), std::string::npos) << fit.reason;
 }
 
 TEST(PlanFit, EachRoomThatIsMovedIsNoticedAndHowFar) {
@@ -211,7 +211,7 @@ TEST(PlanFit, AWrongExpectationDoesNotMoveAClearFit) {
 }
 
 TEST(PlanFit, StatusNamesRoundTrip) {
-  test::checkEnumTable(PlanFitStatus::kFitted);
+  oikos::test::checkEnumTable(PlanFitStatus::kFitted);
 }
 
 // A drawing's axes, with the dock where the drive began at the origin (S57); or a home's own frame.

@@ -140,7 +140,7 @@ TEST_F(SvgPlan, EachMistakeIsNamedWithItsLine) {
   expectRefused("<g transform=\"scale 3\"><line x2=\"4\"/></g>", {"plan.svg:2", "must be NAME(NUMBERS)"});
   expectRefused("<svg><line x2=\"4\"/></svg>", {"plan.svg:2", "a drawing within the drawing"});
   expectRefused("<image href=\"scan.png\"/>", {"plan.svg:2", "image: is not read"});
-  expectRefused("<line x2=\"4\">", {"plan.svg:3"});
+  expectRefused("<line x2=\"4\"></g>", {"plan.svg:2", "mismatch"});
   expectRefused("<text>no walls</text>", {"plan.svg", "holds no lines"});
 }
 

@@ -64,6 +64,18 @@ TEST(ReportHtml, ShowsTheReportsNumbers) {
   EXPECT_TRUE(holds(html, "refused: contradicts other loops"));
 }
 
+TEST(ReportHtml, ShowsAndDrawsTheFloorPlan) {
+  EXPECT_FALSE(holds(reportHtml(test::sampleReport()), "Floor plan"));
+  const std::string html = reportHtml(test::reportOnPlan());
+  EXPECT_EQ(test::xmlProblem(html), "");
+  for (const std::string& row :
+       {fact("origin of the map in the plan, x / y", "7.500 / -2.000 m"), fact("heading at the start", "90.0°"),
+        fact("of these seen", "75 %"), fact("residual, root mean square", "12.5 mm"), fact("walls missing", "0.5 m")}) {
+    EXPECT_TRUE(holds(html, row)) << row;
+  }
+  EXPECT_EQ(count(html, "<path class=\"plan\""), 1);
+}
+
 TEST(ReportHtml, DrawsBothPathsAndEveryLoop) {
   MapReport report = test::sampleReport();
   const std::string html = reportHtml(report);

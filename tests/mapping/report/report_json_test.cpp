@@ -58,6 +58,23 @@ TEST(ReportJson, KeysKeepTheirOrder) {
                                             "floor", "map", "frames"}));
 }
 
+TEST(ReportJson, AFloorPlanIsThereIfThereWasOne) {
+  EXPECT_FALSE(Json::parse(reportJson(test::sampleReport())).contains("floor_plan"));
+  const Json plan = Json::parse(reportJson(test::reportOnPlan()))["floor_plan"];
+  EXPECT_EQ(plan["map_in_plan"]["x_m"], 7.5);
+  EXPECT_EQ(plan["map_in_plan"]["y_m"], -2.0);
+  EXPECT_EQ(plan["map_in_plan"]["yaw_deg"], 0.0);
+  EXPECT_NEAR(plan["start_in_map"]["yaw_deg"], 90.0, 1e-9);
+  EXPECT_EQ(plan["plan_walls_m"], 76.5);
+  EXPECT_EQ(plan["plan_walls_seen_share"], 0.75);
+  EXPECT_EQ(plan["upright_surface_on_plan_share"], 0.625);
+  EXPECT_EQ(plan["residual_rms_m"], 0.0125);
+  EXPECT_EQ(plan["walls_over_floor_m"], 0.25);
+  EXPECT_EQ(plan["walls_missing_m"], 0.5);
+  EXPECT_EQ(plan["floor_outside_m2"], 0.125);
+  EXPECT_EQ(plan["surface_beyond_share"], 0.03125);
+}
+
 TEST(ReportJson, WhatIsUnknownIsNull) {
   MapReport report = test::sampleReport();
   report.floor.status = FloorSighting::kNotInSight;

@@ -70,4 +70,22 @@ MapReport sampleReport() {
   return report;
 }
 
+MapReport reportOnPlan() {
+  MapReport report = sampleReport();
+  PlanFacts plan;
+  plan.T_plan_map.translation() = Eigen::Vector2d(7.5, -2.0);
+  plan.T_map_base.linear() << 0.0, -1.0, 1.0, 0.0;
+  plan.plan_m = 76.5;
+  plan.supported_share = 0.75;
+  plan.on_plan_share = 0.625;
+  plan.rms_m = 0.0125;
+  plan.crossed_m = 0.25;
+  plan.missing_m = 0.5;
+  plan.floor_outside_m2 = 0.125;
+  plan.beyond_share = 0.03125;
+  plan.lines_map = {{Eigen::Vector2d(-1.0, -0.5), Eigen::Vector2d(2.0, -0.5)}};
+  report.plan = plan;
+  return report;
+}
+
 }  // namespace oikos::mapping::test

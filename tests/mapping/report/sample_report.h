@@ -9,4 +9,7 @@ namespace oikos::mapping::test {
 /// alone ends 8 cm off; one loop accepted, one refused; a grid of 30 × 20 cells of 10 cm, all free but for one wall.
 [[nodiscard]] MapReport sampleReport();
 
+/// The same, laid onto a floor plan of one wall.
+[[nodiscard]] MapReport reportOnPlan();
+
 }  // namespace oikos::mapping::test
