@@ -29,6 +29,7 @@ struct Options {
   int seeds = 2;
   int starts = 10;
   double moved_m = 0.6;
+  bool as_drawing = false;
   bool verbose = false;
 };
 
@@ -56,8 +57,20 @@ void printFigures(const std::string& name, const mapping::PlanFit& fit) {
       f.floor_outside_m2, f.beyond_share, 1000.0 * f.rms_m, fit.moved_room.gain_share, fit.runner_up, fit.reason.c_str());
 }
 
+/// The outlines, or what a drawing would tell of them: lines whose sides and rooms are not known.
+mapping::FloorPlan planFrom(const semantic::Home& home, const Options& options) {
+  mapping::FloorPlan plan = tools::planOf(home);
+  if (options.as_drawing) {
+    for (mapping::PlanLine& line : plan.lines) {
+      line.inwards.setZero();
+    }
+    mapping::numberRooms(plan);
+  }
+  return plan;
+}
+
 void runRight(const bench::SeenHome& seen, const Options& options, simulate::Dice& dice, Tally& tally) {
-  const mapping::FloorPlan plan = tools::planOf(seen.believed());
+  const mapping::FloorPlan plan = planFrom(seen.believed(), options);
   for (int i = 0; i < options.starts; ++i) {
     const Eigen::Isometry2d T_map_level = randomStart(dice);
     const mapping::WallSketch sketch = seen.sketch(T_map_level);
@@ -92,7 +105,7 @@ void runWrong(const bench::SeenHome& seen, const std::vector<semantic::Home>& ot
               std::map<std::string, Refusals>& refusals, simulate::Dice& dice) {
   const mapping::WallSketch sketch = seen.sketch(randomStart(dice));
   for (const bench::WrongPlan& wrong : bench::wrongPlans(seen.believed(), others, options.moved_m)) {
-    const mapping::PlanFit fit = mapping::fitToPlan(sketch, tools::planOf(wrong.home), {});
+    const mapping::PlanFit fit = mapping::fitToPlan(sketch, planFrom(wrong.home, options), {});
     Refusals& count = refusals[wrong.kind];
     ++count.plans;
     count.refused += fit.status != mapping::PlanFitStatus::kFitted ? 1 : 0;
@@ -149,6 +162,7 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", options.seeds, "true homes to each believed one");
   app.add_option("--starts", options.starts, "of the drive, for each true home");
   app.add_option("--moved", options.moved_m, "how far a room is moved in a wrong plan, m");
+  app.add_flag("--as-drawing", options.as_drawing, "as if from a drawing, which does not tell on which side of a line the room is");
   app.add_flag("--verbose", options.verbose, "every figure");
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);

@@ -155,7 +155,7 @@ class Weighing {
     bool on_line = false;
     bool inside = false;
     bool outside = false;
-    bool before = false;  ///< on the room's side, or on either if the plan does not know it
+    bool before = false;  ///< on the room's side; on both if the plan does not know it: behind a wall there is another room's floor
   };
   [[nodiscard]] Surroundings floorBeside(const PlanLine& line, double share) const {
     const Eigen::Vector2d along = (line.to_plan - line.from_plan).normalized();
@@ -165,7 +165,7 @@ class Weighing {
     Surroundings floor{isSeen(0.0), isSeen(kBeside_m), isSeen(-kBeside_m), false};
     floor.before = isSeen(kBefore_m) && isSeen(kBefore_m + kBeside_m);
     if (line.inwards.isZero()) {
-      floor.before = floor.before || (isSeen(-kBefore_m) && isSeen(-kBefore_m - kBeside_m));
+      floor.before = floor.before && (isSeen(-kBefore_m) && isSeen(-kBefore_m - kBeside_m));
     }
     return floor;
   }

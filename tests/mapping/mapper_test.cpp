@@ -270,6 +270,39 @@ TEST(Mapper, OdometryCarriesTheDriveThroughTheDark) {
   }
 }
 
+// The room is 4 m by 3 m about its origin: two places fit, and where the drive is said to begin decides.
+PlanTask roomTask(const Eigen::Isometry2d& T_plan_base_expected) {
+  PlanTask task;
+  addRoom({{-2.0, -1.5}, {2.0, -1.5}, {2.0, 1.5}, {-2.0, 1.5}}, task.plan);
+  task.source = "room.svg";
+  task.frame = PlanFrame::kPlan;
+  task.T_plan_base_expected = T_plan_base_expected;
+  return task;
+}
+
+TEST(Mapper, AMapIsLaidOntoItsPlan) {
+  const std::vector<Eigen::Isometry3d> drive = shortDrive(160, -20.0, 360.0);
+  MapConfig config;
+  config.walls.min_height_bins = 2;  // the camera looks down
+  const Eigen::Isometry2d expected = Eigen::Translation2d(-0.3, 0.1) * Eigen::Rotation2Dd(-0.2);
+  const Built built(richRecording(drive), {.plan = roomTask(expected)}, config);
+  ASSERT_TRUE(built.result.placement.has_value());
+  const recording::Trajectory T_room_camera = built.trajectory();
+  EXPECT_LT(distance_m(T_room_camera.front().T_map_camera, drive.front()), 0.03);
+  EXPECT_LT(turn_rad(T_room_camera.front().T_map_camera, drive.front()), 0.5 * std::numbers::pi / 180.0);
+  EXPECT_NE(base::readFile(built.folder.path() / "report.json").find("floor_plan"), std::string::npos);
+}
+
+TEST(Mapper, AMapThatDoesNotFitItsPlanIsRefused) {
+  MapConfig config;
+  config.walls.min_height_bins = 2;
+  PlanTask task = roomTask(Eigen::Isometry2d::Identity());
+  task.plan = {};
+  addRoom({{0.0, 0.0}, {9.0, 0.0}, {9.0, 2.0}, {0.0, 2.0}}, task.plan);
+  test::expectError(base::ErrorCode::kInput, {"room.svg", "the map does not fit"},
+                    [&] { const Built built(richRecording(shortDrive(160, -20.0, 360.0)), {.plan = task}, config); });
+}
+
 TEST(MapConfig, NamesWhatIsWrong) {
   MapConfig config;
   EXPECT_TRUE(config.validate().empty());

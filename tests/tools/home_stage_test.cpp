@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <filesystem>
 #include <string>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/read_file.h"
+#include "semantic/xml/home_reader.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/interrupts.h"
 
@@ -43,6 +46,17 @@ TEST_F(HomeStageTest, NewHomeAppearsWithItsParentsAndASingleRoom) {
   EXPECT_NE(base::readFile(home_ / "home.xml").find("<room id=\"room\" name=\"Room\"/>"), std::string::npos);
   EXPECT_EQ(countEntries(home_), 2);
   EXPECT_EQ(countEntries(home_.parent_path()), 1);
+}
+
+TEST_F(HomeStageTest, ANewHomesDockIsWhereItIsSaidToBe) {
+  {
+    HomeStage stage(home_, interrupts_);
+    base::writeFileAtomically(stage.mapFolder() / "config.toml", "x");
+    stage.commit(Eigen::Translation2d(1.5, -0.25) * Eigen::Rotation2Dd(0.5 * std::numbers::pi));
+  }
+  EXPECT_NE(base::readFile(home_ / "home.xml").find("<dock pose=\"1.500 -0.250 0 0 0 90.00\"/>"), std::string::npos);
+  const semantic::Home home = semantic::getHome(semantic::readHome(home_ / "home.xml"), home_ / "home.xml");
+  EXPECT_EQ(home.T_map_dock.position_m, Eigen::Vector3d(1.5, -0.25, 0.0));
 }
 
 TEST_F(HomeStageTest, SlashAtTheEndDoesNotMatter) {

@@ -153,6 +153,24 @@ TEST(PlanFit, AWallThatShouldHaveBeenSeenIsMissed) {
   EXPECT_NEAR(fit.figures.missing_m, 5.0 - 0.2 - 1.2, 0.25);
 }
 
+// A drawing does not tell which side of a line is the room. Behind a wall that furniture hides there is another room's floor.
+TEST(PlanFit, FurnitureBeforeAWallOfADrawingIsNoMissingWall) {
+  FloorPlan drawing = planOf(flat());
+  for (PlanLine& line : drawing.lines) {
+    line.inwards.setZero();
+    line.room = 0;
+  }
+  numberRooms(drawing);
+  WallSketch sketch = seen(flat(), kStart);
+  const Eigen::AlignedBox2d cupboards = box(0.0, 1.7, 3.4, 2.3);
+  std::erase_if(sketch.walls, [&](const WallPoint& wall) { return cupboards.contains(kStart * wall.point_level); });
+  std::erase_if(sketch.floor_level, [&](const Eigen::Vector2d& cell) { return cupboards.contains(kStart * cell); });
+  const PlanFit fit = fitToPlan(sketch, drawing, {});
+  EXPECT_EQ(fit.status, PlanFitStatus::kFitted) << fit.reason;
+  EXPECT_LT(test::errorOf(fit.T_plan_level, kStart).distance_m, 1e-5);
+  EXPECT_DOUBLE_EQ(fit.figures.missing_m, 0.0);
+}
+
 TEST(PlanFit, AWrongScaleIsNamed) {
   const Rooms one = {box(0.0, 0.0, 5.0, 3.0), box(0.0, 3.12, 2.0, 6.0)};
   PlanFitConfig lenient;
