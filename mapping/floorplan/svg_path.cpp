@@ -174,13 +174,13 @@ class PathParser {
       case 'C':
       case 'S': {
         const Eigen::Vector2d first = kind == 'C' ? point() : mirrored("CS");
-        const Eigen::Vector2d second = point();
+        Eigen::Vector2d second = point();
         addBezier(first, second, point(), line);
         return second;
       }
       case 'Q':
       case 'T': {
-        const Eigen::Vector2d middle = kind == 'Q' ? point() : mirrored("QT");
+        Eigen::Vector2d middle = kind == 'Q' ? point() : mirrored("QT");
         const Eigen::Vector2d end = point();
         addBezier(here_ + 2.0 / 3.0 * (middle - here_), end + 2.0 / 3.0 * (middle - end), end, line);
         return middle;
