@@ -134,4 +134,18 @@ recording::Trajectory linkLaps(const fs::path& source, int laps, const recording
   return poses;
 }
 
+void linkFrames(const fs::path& source, int first, int end, const fs::path& folder) {
+  fs::create_directories(folder);
+  const fs::path absolute = fs::absolute(source);
+  fs::create_symlink(absolute / "camera.toml", folder / "camera.toml");
+  const double rate_hz = camera::readCalibration(absolute / "camera.toml").rate_hz;
+  for (const recording::ListedFrame& frame : listFrames(absolute).frames) {
+    const std::int64_t number = std::llround(static_cast<double>(frame.stamp_ns) * 1e-9 * rate_hz);
+    if (number >= first && number < end) {
+      fs::create_symlink(frame.color, folder / (frameName(number) + ".color" + frame.color.extension().string()));
+      fs::create_symlink(frame.depth, folder / (frameName(number) + ".depth.png"));
+    }
+  }
+}
+
 }  // namespace oikos::bench

@@ -15,4 +15,7 @@ void writeHalfSize(const std::filesystem::path& source, int step, const std::fil
 [[nodiscard]] recording::Trajectory linkLaps(const std::filesystem::path& source, int laps, const recording::Trajectory& truth,
                                              const std::filesystem::path& folder);
 
+/// Links the frames of a 7-Scenes folder from `first` to before `end`, each with its number, so that its stamp stays.
+void linkFrames(const std::filesystem::path& source, int first, int end, const std::filesystem::path& folder);
+
 }  // namespace oikos::bench

@@ -55,11 +55,4 @@ class KeyframeStoreWriter {
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-/// Reads a whole store back. Throws Error{kInput} that names what is wrong: not a store, a newer version, a damaged blob.
-struct KeyframeStore {
-  camera::PinholeCamera camera;
-  std::vector<StoredKeyframe> keyframes;
-};
-[[nodiscard]] KeyframeStore readKeyframeStore(const std::filesystem::path& file);
-
 }  // namespace oikos::mapping

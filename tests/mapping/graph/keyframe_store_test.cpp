@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mapping/graph/keyframe_store.h"
+#include "mapping/graph/keyframe_reader.h"
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
