@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "core/model/articulated_model.h"
+#include "core/render/scene.h"
+
+namespace oikos::registration {
+
+/// One rigid part of a landmark: what is kept or dropped as a whole.
+struct LandmarkSurface {
+  int landmark = 0;
+  std::string part;      ///< its name in the model
+  bool is_base = false;  ///< it does not move while the piece stands; a door does
+};
+
+/// Furniture that is believed to stand where it was put (S220), each part of it a model of its own in the scene, so that an opened door can be
+/// left out and its cupboard kept. Surface i is model i of the scene. Not thread-safe.
+class LandmarkScene {
+ public:
+  /// Returns the landmark's number. Throws as render::Scene::add. `joint_values`: what is believed of doors and drawers.
+  int add(const std::string& id, const model::ArticulatedModel& model, const Eigen::Isometry3d& T_map_model,
+          const std::vector<double>& joint_values);
+
+  [[nodiscard]] const std::vector<std::string>& ids() const { return ids_; }  ///< by landmark
+  [[nodiscard]] const std::vector<LandmarkSurface>& surfaces() const { return surfaces_; }
+  [[nodiscard]] const render::Scene& scene() const { return scene_; }
+  /// Shows these surfaces and hides the others; one entry a surface.
+  void show(const std::vector<char>& shown);
+
+ private:
+  render::Scene scene_;
+  std::vector<std::string> ids_;
+  std::vector<LandmarkSurface> surfaces_;
+};
+
+}  // namespace oikos::registration

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Map, home and registration together: where the camera was.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/enum_table.h"
+#include "core/camera/pinhole_camera.h"
+#include "core/camera/rgbd_frame.h"
+#include "core/geometry/se3.h"
+#include "mapping/odometry/wheel_odometry.h"
+#include "mapping/relocalise/map_tracker.h"
+#include "registration/landmark/landmark_refiner.h"
+#include "registration/scan.h"
+#include "tracking/localisation/pose_prior.h"
+
+namespace oikos::tracking {
+
+struct LocaliseConfig {
+  mapping::RelocaliseConfig map;
+  registration::ScanConfig scan;
+  registration::LandmarkConfig landmarks;
+  double prior_sigma_m = 0.05;        ///< of a given prior's x and y each
+  double prior_sigma_deg = 3.0;       ///< and of its yaw
+  double map_prior_sigma_m = 0.02;    ///< how well map and furniture agree about the place,
+  double map_prior_sigma_deg = 1.0;   ///< and the heading
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("map", map);
+    visitor("scan", scan);
+    visitor("landmarks", landmarks);
+    visitor("prior_sigma_m", prior_sigma_m);
+    visitor("prior_sigma_deg", prior_sigma_deg);
+    visitor("map_prior_sigma_m", map_prior_sigma_m);
+    visitor("map_prior_sigma_deg", map_prior_sigma_deg);
+  }
+  [[nodiscard]] std::vector<std::string> validate() const;
+};
+
+/// What a pose rests on.
+enum class PoseSource {
+  kNone,       ///< not found
+  kMap,        ///< seen again in the saved map
+  kLandmarks,  ///< and, or after a prior, refined by furniture
+};
+constexpr auto enumTable(PoseSource) {
+  return std::to_array<base::EnumName<PoseSource>>(
+      {{PoseSource::kNone, "none"}, {PoseSource::kMap, "map"}, {PoseSource::kLandmarks, "landmarks"}});
+}
+
+struct LocatedPose {
+  int frame = -1;
+  std::int64_t stamp_ns = 0;
+  PoseSource source = PoseSource::kNone;
+  Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();          ///< of the right perturbation (m, rad)
+  std::optional<Eigen::Isometry3d> T_map_camera_before;                ///< what the landmarks refined: from the map, or the prior
+  mapping::LocateResult in_map;                                        ///< of a localiser with a map
+  std::optional<registration::LandmarkRefinement> landmarks;           ///< if there was something to refine
+};
+
+/// What a localiser works with; all of it outlives it. Without a map a prior is needed, without furniture there is no refinement.
+struct LocaliserTools {
+  const camera::PinholeCamera& camera;
+  const mapping::Relocaliser* relocaliser = nullptr;
+  registration::LandmarkScene* furniture = nullptr;
+  std::optional<int> only = std::nullopt;  ///< one landmark on demand (S210)
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  const PosePrior* prior = nullptr;
+  const mapping::WheelOdometry* odometry = nullptr;
+};
+
+/// Finds a drive's frames, one after the other: in the map without a prior, tracked on, then refined by the furniture in view. Not thread-safe.
+class Localiser {
+ public:
+  Localiser(const LocaliserTools& tools, const LocaliseConfig& config);
+
+  /// `frame.gray` and `depth_m` are needed.
+  LocatedPose add(const camera::RgbdFrame& frame);
+
+ private:
+  [[nodiscard]] std::optional<Eigen::Isometry3d> predict(std::int64_t stamp_ns) const;
+  void refine(const camera::RgbdFrame& frame, LocatedPose& located);
+
+  LocaliserTools tools_;
+  LocaliseConfig config_;
+  std::optional<mapping::MapTracker> tracker_;
+  std::optional<LocatedPose> last_;  ///< found
+};
+
+}  // namespace oikos::tracking
