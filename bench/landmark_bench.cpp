@@ -67,10 +67,11 @@ simulate::SceneScript kitchenDrive(double error_m, const Options& options) {
   script.camera.jpeg_quality = 50;
   script.camera.height_m = 1.2;  // a head's, which looks at the front of the room rather than at the floor
   script.camera.tilt_deg = 3.0;
-  script.path.start = {0.9, 1.4, 90.0};
-  script.path.waypoints = {"0.9 2.2 yaw 75",  "0.5 1.5 yaw 65",  "1.3 1.5 yaw 100", "1.1 2.3 yaw 105",
-                           "0.7 1.4 yaw 110", "0.6 2.1 yaw 70",  "1.2 1.9 yaw 95",  "0.9 1.4 yaw 90"};
-  script.path.turn_rate_dps = 30.0;
+  script.path.start = {0.5, 1.2, 90.0};
+  script.path.waypoints = {"0.6 1.3 look 15",  "0.75 1.45 look -20", "0.9 1.5 look 10",  "1.1 1.65 look 25",
+                           "1.05 1.75 look -15", "0.9 1.85 look -10",  "0.85 2.0 look 20", "0.9 2.1 look -15"};
+  script.path.speed_mps = 0.15;
+  script.path.turn_rate_dps = 15.0;
   script.belief = beliefOf(error_m, options.has_mount_error);
   return script;
 }

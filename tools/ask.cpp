@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
-#include <vector>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/base/rfc3339.h"
 #include "semantic/history/history.h"
 #include "semantic/history/home_state.h"
 #include "semantic/history/recollection.h"
 #include "semantic/query/answer.h"
 #include "tools/command.h"
+#include "tools/floor_place.h"
 
 namespace oikos::tools {
 
@@ -59,18 +55,8 @@ std::optional<semantic::RobotPlace> robotOf(const std::string& text) {
   if (text.empty()) {
     return std::nullopt;
   }
-  std::vector<double> numbers;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) {
-    const auto number = base::findNumber(part);
-    if (number && std::isfinite(*number)) {
-      numbers.push_back(*number);
-    }
-  }
-  if (numbers.size() != 3 || std::count(text.begin(), text.end(), ',') != 2) {
-    throw base::Error(base::ErrorCode::kUsage, "'" + text + "' is no place such as 1.5,-2,90 (m, m, degrees)", "--at");
-  }
-  return semantic::RobotPlace{{numbers[0], numbers[1]}, numbers[2] * semantic::kRadPerDeg};
+  const FloorPlace place = parseFloorPlace(text, "--at");
+  return semantic::RobotPlace{place.position_map, place.yaw_rad};
 }
 
 ExitCode ask(const AskOptions& options, const Session& session) {

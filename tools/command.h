@@ -60,6 +60,7 @@ void addDemoCommand(CLI::App& root);
 void addEvaluateCommand(CLI::App& root);
 void addForgetCommand(CLI::App& root);
 void addInspectCommand(CLI::App& root);
+void addLocateCommand(CLI::App& root);
 void addMapCommand(CLI::App& root);
 void addModelCommand(CLI::App& root);
 void addRevertCommand(CLI::App& root);

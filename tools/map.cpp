@@ -17,9 +17,9 @@
 #include "core/base/number_text.h"
 #include "core/recording/recording.h"
 #include "mapping/floorplan/plan_file.h"
-#include "mapping/robot_mount.h"
 #include "tools/command.h"
 #include "tools/map_home.h"
+#include "tools/mount_options.h"
 
 namespace oikos::tools {
 
@@ -36,8 +36,7 @@ struct MapOptions {
   std::filesystem::path recording;
   std::filesystem::path home;
   std::string camera;
-  std::filesystem::path robot;
-  mapping::MountLinks links;
+  MountOptions mount;
   std::filesystem::path floor_plan;
   std::optional<double> floor_plan_scale;
   std::string floor_plan_layer;
@@ -62,12 +61,7 @@ void declareOptions(CLI::App& command, MapOptions& options) {
       ->needs(plan)
       ->check(CLI::PositiveNumber);
   command.add_option("--floorplan-layer", options.floor_plan_layer, "the drawing's layer that holds the walls; default: all")->needs(plan);
-  auto* const robot = command.add_option("--robot", options.robot, "URDF of the robot that carries the camera");
-  auto* const camera_link = command.add_option("--camera-link", options.links.camera, "its optical link (z forward, y down)");
-  auto* const base_link = command.add_option("--base-link", options.links.base, "its base link (x forward, z up, on the floor)");
-  robot->needs(camera_link)->needs(base_link);
-  camera_link->needs(robot);
-  base_link->needs(robot);
+  declareMountOptions(command, options.mount);
 }
 
 mapping::MapConfig configOf(const MapOptions& options, const GlobalOptions& global) {
@@ -85,11 +79,6 @@ mapping::MapConfig configOf(const MapOptions& options, const GlobalOptions& glob
     layers.settings.push_back({"volume.every_frame", "true", "--every-frame"});
   }
   return base::loadConfig<mapping::MapConfig>(layers);
-}
-
-/// The robot's description wins over the recording's calibration.
-std::optional<Eigen::Isometry3d> mountOf(const MapOptions& options, const recording::Recording& recording) {
-  return options.robot.empty() ? recording.T_base_camera() : mapping::readMount(options.robot, options.links);
 }
 
 std::optional<mapping::PlanTask> planOf(const MapOptions& options) {
@@ -166,7 +155,8 @@ Summary buildHome(const MapOptions& options, const Session& session) {
   const mapping::MapConfig config = configOf(options, session.options);
   std::optional<mapping::PlanTask> plan = planOf(options);
   const auto recording = recording::openRecording(options.recording, {.camera = options.camera});
-  const mapping::MapResult result = mapIntoHome({*recording, options.home, config, mountOf(options, *recording), std::move(plan)}, session);
+  const mapping::MapResult result =
+      mapIntoHome({*recording, options.home, config, mountOf(options.mount, *recording), std::move(plan)}, session);
   return {options.home, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
 }
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
+#include "registration/edge_pairs.h"
 
 namespace oikos::registration {
 
@@ -20,159 +22,219 @@ struct Solution {
   Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
 };
 
+/// What may be left out: a piece, or a part of it that moves.
+struct Unit {
+  int surface = 0;
+  double contradiction = 0.0;
+  int agreeing = 0;
+};
+
+/// Which surfaces are believed to stand where they are thought to, and what follows.
+struct Hypothesis {
+  std::vector<char> used;      ///< one a surface
+  std::vector<double> moved;   ///< one a landmark: the contradiction that it was left out for, or 0
+  std::vector<int> dropped;    ///< surfaces of pieces that stay
+  Solution solution;
+  std::vector<SurfaceCheck> checks;
+  double score = 0.0;          ///< pixels that agree less those that contradict
+
+  [[nodiscard]] bool contradicts(std::size_t surface) const { return used[surface] != 0 && checks[surface].contradiction > 1.0; }
+  [[nodiscard]] bool contradictsAnywhere() const {
+    for (std::size_t s = 0; s < used.size(); ++s) {
+      if (contradicts(s)) {
+        return true;
+      }
+    }
+    return false;
+  }
+};
+
 class Refiner {
  public:
   Refiner(LandmarkScene& scene, const Scan& scan, const CameraPrior& prior, const LandmarkConfig& config, std::optional<int> only)
-      : scene_(scene), scan_(scan), prior_(prior), config_(config), only_(only), used_(scene.surfaces().size(), 1) {
-    for (std::size_t s = 0; s < used_.size(); ++s) {
-      used_[s] = !only || scene.surfaces()[s].landmark == *only ? 1 : 0;
-    }
-    moved_.assign(scene.ids().size(), 0.0);
-  }
+      : scene_(scene), scan_(scan), edges_(scan), prior_(prior), config_(config), only_(only) {}
 
   LandmarkRefinement run() {
     LandmarkRefinement answer;
     answer.T_map_camera = prior_.T_map_camera;
     answer.covariance = covariance6(priorCovariance(), prior_.T_map_camera);
-    Solution solution;
-    do {
+    best_.used = inView();
+    best_.moved.assign(scene_.ids().size(), 0.0);
+    if (std::count(best_.used.begin(), best_.used.end(), 1) == 0) {
+      return answer;
+    }
+    evaluate(best_, prior_.T_map_camera);
+    if (best_.contradictsAnywhere() || best_.solution.fit.overlap < config_.good_overlap) {
+      tryOtherStarts();
+    }
+    answer.rounds = 1;
+    while (best_.contradictsAnywhere() && answer.rounds < config_.max_rounds) {
       ++answer.rounds;
-      scene_.show(used_);
-      solution = solve();
-      check(solution);
-    } while (answer.rounds < config_.max_rounds && leaveOutWorst());
-    answer.status = judge(solution);
-    answer.rms_m = solution.fit.rms_m;
-    answer.overlap = solution.fit.overlap;
+      leaveOneOut();
+    }
+    answer.status = judge();
+    answer.rms_m = best_.solution.fit.rms_m;
+    answer.overlap = best_.solution.fit.overlap;
     answer.landmarks = contributions();
     if (answer.status == RefinementStatus::kRefined) {
-      fuse(solution, answer);
+      fuse(best_.solution, answer);
     }
-    scene_.show(std::vector<char>(used_.size(), 1));
+    scene_.show(std::vector<char>(scene_.surfaces().size(), 1));
     return answer;
   }
 
  private:
-  [[nodiscard]] Solution solveFrom(const Eigen::Isometry3d& T_map_camera) const {
-    CameraMotion motion(scene_.scene(), T_map_camera, PoseFreedom::kPlanar, prior_.robot_camera);
-    Solution solution;
-    solution.fit = align(motion, scan_, config_.align);
-    solution.T_map_camera = motion.T_map_camera();
-    return solution;
+  /// Pieces that cover enough of the scan, with all of their parts.
+  [[nodiscard]] std::vector<char> inView() const {
+    const std::vector<int> pixels = scene_.countInView(scan_, prior_.T_map_camera, config_.align.threads);
+    std::vector<int> of_piece(scene_.ids().size(), 0);
+    for (std::size_t s = 0; s < pixels.size(); ++s) {
+      of_piece[static_cast<std::size_t>(scene_.surfaces()[s].landmark)] += pixels[s];
+    }
+    std::vector<char> used(pixels.size(), 0);
+    for (std::size_t s = 0; s < pixels.size(); ++s) {
+      const int landmark = scene_.surfaces()[s].landmark;
+      used[s] = of_piece[static_cast<std::size_t>(landmark)] >= leastPixels() && (!only_ || landmark == *only_) ? 1 : 0;
+    }
+    return used;
   }
 
-  [[nodiscard]] Eigen::Isometry3d turnedPrior(double yaw_rad) const {
-    geometry::Vector6d twist = geometry::Vector6d::Zero();
-    twist(5) = yaw_rad;
-    return motionAbout(prior_.T_map_camera * prior_.robot_camera, twist) * prior_.T_map_camera;
+  void evaluate(Hypothesis& h, const Eigen::Isometry3d& T_map_camera_start) {
+    scene_.show(h.used);
+    CameraMotion motion(scene_.scene(), T_map_camera_start, PoseFreedom::kPlanar, prior_.robot_camera);
+    h.solution.fit = align(motion, scan_, config_.align);
+    h.solution.T_map_camera = motion.T_map_camera();
+    h.checks = checkSurfaces(scene_, motion, scan_, edges_, h.solution.fit.covariance, config_.check, config_.align.threads);
+    h.score = 0.0;
+    for (std::size_t s = 0; s < h.used.size(); ++s) {
+      h.score += h.contradicts(s) ? -h.checks[s].visible : h.used[s] * h.checks[s].agreeing;
+    }
   }
 
-  [[nodiscard]] Solution solve() const {
-    Solution best = solveFrom(prior_.T_map_camera);
+  /// Rows of equal fronts, and far turns, have false answers beside the true one.
+  void tryOtherStarts() {
+    const Eigen::Vector3d right_map = prior_.T_map_camera.linear().col(0);
+    const Eigen::Vector2d aside = config_.aside_step_m * right_map.head<2>().normalized();
     for (const double side : {-1.0, 1.0}) {
-      if (best.fit.overlap < config_.good_overlap) {
-        const Solution other = solveFrom(turnedPrior(side * config_.yaw_step_deg * kDegree));
-        best = other.fit.inliers > best.fit.inliers ? other : best;
+      geometry::Vector6d turn = geometry::Vector6d::Zero();
+      turn(5) = side * config_.yaw_step_deg * kDegree;
+      geometry::Vector6d way = geometry::Vector6d::Zero();
+      way.head<2>() = side * aside;
+      for (const geometry::Vector6d& twist : {turn, way}) {
+        Hypothesis other = best_;
+        evaluate(other, motionAbout(prior_.T_map_camera * prior_.robot_camera, twist) * prior_.T_map_camera);
+        if (other.score > best_.score) {
+          best_ = std::move(other);
+        }
       }
     }
-    return best;
   }
 
-  void check(const Solution& solution) {
-    const CameraMotion motion(scene_.scene(), solution.T_map_camera, PoseFreedom::kPlanar, prior_.robot_camera);
-    checks_ = checkSurfaces(scene_, motion, scan_, solution.fit.covariance, config_.check, config_.align.threads);
-  }
-
-  /// What contradicts half as much as the worst goes with it. False: nothing contradicts.
-  bool leaveOutWorst() {
-    double worst = 1.0;
-    for (std::size_t s = 0; s < checks_.size(); ++s) {
-      worst = std::max(worst, used_[s] != 0 ? checks_[s].contradiction : 0.0);
-    }
-    if (worst <= 1.0) {
-      return false;
-    }
-    for (std::size_t s = 0; s < checks_.size(); ++s) {
-      const double contradiction = checks_[s].contradiction;
-      if (used_[s] != 0 && contradiction > 1.0 && contradiction >= 0.5 * worst) {
-        leaveOut(s);
+  /// Those that contradict most; and the one that most agrees, for it may have pulled the answer to itself.
+  [[nodiscard]] std::vector<Unit> suspects() const {
+    constexpr std::size_t kMost = 3;
+    std::vector<Unit> contradicting;
+    Unit heaviest;
+    for (std::size_t s = 0; s < best_.used.size(); ++s) {
+      const Unit unit{static_cast<int>(s), best_.checks[s].contradiction, best_.checks[s].agreeing};
+      if (best_.contradicts(s)) {
+        contradicting.push_back(unit);
+      } else if (best_.used[s] != 0 && scene_.surfaces()[s].is_base && unit.agreeing > heaviest.agreeing) {
+        heaviest = unit;
       }
     }
-    return true;
+    std::stable_sort(contradicting.begin(), contradicting.end(),
+                     [](const Unit& a, const Unit& b) { return a.contradiction > b.contradiction; });
+    contradicting.resize(std::min(contradicting.size(), kMost));
+    if (heaviest.agreeing > 0) {
+      contradicting.push_back(heaviest);
+    }
+    return contradicting;
+  }
+
+  /// Of all that could be left out next, what leaves most agreement.
+  void leaveOneOut() {
+    Hypothesis next;
+    for (const Unit& suspect : suspects()) {
+      Hypothesis without = best_;
+      leaveOut(static_cast<std::size_t>(suspect.surface), without);
+      evaluate(without, prior_.T_map_camera);
+      if (next.used.empty() || without.score > next.score) {
+        next = std::move(without);
+      }
+    }
+    best_ = std::move(next);
   }
 
   /// With its base a piece goes as a whole.
-  void leaveOut(std::size_t surface) {
+  void leaveOut(std::size_t surface, Hypothesis& h) const {
     const LandmarkSurface& out = scene_.surfaces()[surface];
-    used_[surface] = 0;
+    h.used[surface] = 0;
     if (!out.is_base) {
-      dropped_.push_back(static_cast<int>(surface));
+      h.dropped.push_back(static_cast<int>(surface));
       return;
     }
-    moved_[static_cast<std::size_t>(out.landmark)] = checks_[surface].contradiction;
-    for (std::size_t s = 0; s < used_.size(); ++s) {
+    h.moved[static_cast<std::size_t>(out.landmark)] = std::max(1.0, h.checks[surface].contradiction);
+    for (std::size_t s = 0; s < h.used.size(); ++s) {
       if (scene_.surfaces()[s].landmark == out.landmark) {
-        used_[s] = 0;
+        h.used[s] = 0;
       }
     }
   }
 
-  [[nodiscard]] double readings() const {
-    return static_cast<double>(
-        std::count_if(scan_.points.begin(), scan_.points.end(), [](const ScanPoint& p) { return p.point_camera.z() > 0.0F; }));
+  [[nodiscard]] double leastPixels() const {
+    const auto readings = std::count_if(scan_.points.begin(), scan_.points.end(), [](const ScanPoint& p) { return p.point_camera.z() > 0.0F; });
+    return std::max(1.0, config_.min_share * static_cast<double>(readings));
   }
 
   [[nodiscard]] std::vector<LandmarkContribution> contributions() const {
     std::vector<LandmarkContribution> all(scene_.ids().size());
     double agreeing = 0.0;
-    for (std::size_t s = 0; s < checks_.size(); ++s) {
+    for (std::size_t s = 0; s < best_.checks.size(); ++s) {
       LandmarkContribution& piece = all[static_cast<std::size_t>(scene_.surfaces()[s].landmark)];
-      piece.pixels += checks_[s].pixels;
-      piece.agreeing += checks_[s].agreeing;
-      piece.contradiction = std::max(piece.contradiction, used_[s] != 0 ? checks_[s].contradiction : 0.0);
-      agreeing += checks_[s].agreeing;
+      piece.pixels += best_.checks[s].pixels;
+      piece.agreeing += best_.checks[s].agreeing;
+      piece.contradiction = std::max(piece.contradiction, best_.used[s] != 0 ? best_.checks[s].contradiction : 0.0);
+      agreeing += best_.checks[s].agreeing;
     }
-    for (const int surface : dropped_) {
+    for (const int surface : best_.dropped) {
       const LandmarkSurface& part = scene_.surfaces()[static_cast<std::size_t>(surface)];
       all[static_cast<std::size_t>(part.landmark)].dropped_parts.push_back(part.part);
     }
     std::vector<LandmarkContribution> in_view;
-    const double least = std::max(1.0, config_.min_share * readings());
+    const double least = leastPixels();
     for (std::size_t i = 0; i < all.size(); ++i) {
       LandmarkContribution& piece = all[i];
       piece.id = scene_.ids()[i];
-      if (moved_[i] > 0.0) {
+      if (best_.moved[i] > 0.0) {
         piece.verdict = LandmarkVerdict::kMoved;
-        piece.contradiction = moved_[i];
+        piece.contradiction = best_.moved[i];
       } else if (piece.agreeing >= least) {
         piece.verdict = piece.dropped_parts.empty() ? LandmarkVerdict::kUsed : LandmarkVerdict::kChanged;
       }
       piece.weight = agreeing > 0.0 ? piece.agreeing / agreeing : 0.0;
-      if (piece.pixels >= least || moved_[i] > 0.0) {
+      if (piece.pixels >= least || best_.moved[i] > 0.0) {
         in_view.push_back(std::move(piece));
       }
     }
     return in_view;
   }
 
-  [[nodiscard]] RefinementStatus judge(const Solution& solution) const {
+  [[nodiscard]] RefinementStatus judge() const {
     int agree = 0;
     int moved = 0;
     for (const LandmarkContribution& piece : contributions()) {
       agree += piece.verdict == LandmarkVerdict::kUsed || piece.verdict == LandmarkVerdict::kChanged ? 1 : 0;
       moved += piece.verdict == LandmarkVerdict::kMoved ? 1 : 0;
     }
-    const bool contradicts = std::any_of(checks_.begin(), checks_.end(), [&](const SurfaceCheck& c) {
-      return used_[static_cast<std::size_t>(&c - checks_.data())] != 0 && c.contradiction > 1.0;
-    });
     if (agree < (only_ ? 1 : config_.min_landmarks)) {
       return moved > 0 ? RefinementStatus::kInconsistent : RefinementStatus::kTooFewLandmarks;
     }
-    if (contradicts || moved >= agree || deviations(solution) > config_.max_deviations) {
+    if (best_.contradictsAnywhere() || moved >= agree || deviations(best_.solution) > config_.max_deviations) {
       return RefinementStatus::kInconsistent;
     }
-    const bool fits = solution.fit.status == AlignStatus::kConverged || solution.fit.status == AlignStatus::kDegenerate ||
-                      solution.fit.status == AlignStatus::kIterationLimit;
+    const AlignStatus status = best_.solution.fit.status;
+    const bool fits = status == AlignStatus::kConverged || status == AlignStatus::kDegenerate || status == AlignStatus::kIterationLimit;
     return fits ? RefinementStatus::kRefined : RefinementStatus::kNotConverged;
   }
 
@@ -229,13 +291,11 @@ class Refiner {
 
   LandmarkScene& scene_;
   const Scan& scan_;
+  ScanEdges edges_;
   const CameraPrior& prior_;
   const LandmarkConfig& config_;
   std::optional<int> only_;
-  std::vector<char> used_;        ///< one a surface
-  std::vector<double> moved_;     ///< one a landmark: the contradiction that it was left out for, or 0
-  std::vector<int> dropped_;      ///< surfaces of pieces that stay
-  std::vector<SurfaceCheck> checks_;
+  Hypothesis best_;
 };
 
 }  // namespace
@@ -246,6 +306,7 @@ std::vector<std::string> LandmarkConfig::validate() const {
       .atLeast("min_landmarks", min_landmarks, 1)
       .atLeast("max_rounds", max_rounds, 1)
       .greater("yaw_step_deg", yaw_step_deg, 0.0)
+      .greater("aside_step_m", aside_step_m, 0.0)
       .between("good_overlap", good_overlap, 0.0, 1.0)
       .greater("max_deviations", max_deviations, 0.0)
       .atLeast("upright_sigma_m", upright_sigma_m, 0.0)

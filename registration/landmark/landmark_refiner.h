@@ -22,8 +22,9 @@ struct LandmarkConfig {
   double min_share = 0.005;       ///< of the scan's readings; a piece that covers less is not in view
   int min_landmarks = 2;          ///< pieces that must agree; one alone cannot tell whether it was moved
   int max_rounds = 6;             ///< of solving and leaving out what disagrees
-  double yaw_step_deg = 6.0;      ///< a fit that is not good is tried again from turns to both sides
-  double good_overlap = 0.7;      ///< a fit that is
+  double yaw_step_deg = 6.0;      ///< a fit that is not good is tried again from turns to both sides,
+  double aside_step_m = 0.12;     ///< and from places to both sides
+  double good_overlap = 0.7;      ///< a fit that is, if nothing contradicts it
   double max_deviations = 5.0;    ///< of the correction, in those of prior and fit together
   double upright_sigma_m = 0.01;  ///< of the camera's height, which is not corrected,
   double upright_sigma_deg = 0.4; ///< and of its tilt
@@ -36,6 +37,7 @@ struct LandmarkConfig {
     visitor("min_landmarks", min_landmarks);
     visitor("max_rounds", max_rounds);
     visitor("yaw_step_deg", yaw_step_deg);
+    visitor("aside_step_m", aside_step_m);
     visitor("good_overlap", good_overlap);
     visitor("max_deviations", max_deviations);
     visitor("upright_sigma_m", upright_sigma_m);

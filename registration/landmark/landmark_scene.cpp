@@ -2,8 +2,11 @@
 #include "registration/landmark/landmark_scene.h"
 
 #include <cstddef>
+#include <memory>
+#include <opencv2/core.hpp>
 
 #include "core/base/error.h"
+#include "core/render/view.h"
 
 namespace oikos::registration {
 
@@ -34,12 +37,42 @@ int LandmarkScene::add(const std::string& id, const model::ArticulatedModel& mod
   for (std::size_t part = 0; part < model.parts.size(); ++part) {
     if (model.parts[part].mesh_part) {
       scene_.add(model.parts[part].mesh_part, T_map_model * T_model_parts[part]);
+      whole_.add(model.parts[part].mesh_part, T_map_model * T_model_parts[part]);
+      surface_of_whole_.push_back(static_cast<int>(surfaces_.size()));
       surfaces_.push_back({landmark, model.parts[part].name, moving[part] == 0});
     }
   }
   ids_.push_back(id);
   scene_.commit();
+  whole_.commit();
   return landmark;
+}
+
+void LandmarkScene::addOccluder(const model::TriangleMesh& mesh_map) {
+  whole_.add(std::make_shared<const model::TriangleMesh>(mesh_map), Eigen::Isometry3d::Identity());
+  surface_of_whole_.push_back(-1);
+  whole_.commit();
+}
+
+std::vector<int> LandmarkScene::countInView(const Scan& scan, const Eigen::Isometry3d& T_map_camera, int threads) const {
+  render::ViewConfig config;
+  config.with_parts = true;
+  config.threads = threads;
+  const render::View view = render::renderView(whole_, render::CameraRays(scan.camera), {T_map_camera, {}}, config);
+  std::vector<int> pixels(surfaces_.size(), 0);
+  for (int v = 0; v < scan.camera.height; ++v) {
+    for (int u = 0; u < scan.camera.width; ++u) {
+      const int part = view.part.at<int>(v, u);
+      if (part < 0 || scan.at(u, v).point_camera.z() <= 0.0F) {
+        continue;
+      }
+      const int surface = surface_of_whole_[static_cast<std::size_t>(whole_.parts()[static_cast<std::size_t>(part)].model)];
+      if (surface >= 0) {
+        ++pixels[static_cast<std::size_t>(surface)];
+      }
+    }
+  }
+  return pixels;
 }
 
 void LandmarkScene::show(const std::vector<char>& shown) {

@@ -30,26 +30,30 @@ double normalQuantile(double chance) {
   return t - (2.515517 + 0.802853 * t + 0.010328 * t * t) / (1.0 + 1.432788 * t + 0.189269 * t * t + 0.001308 * t * t * t);
 }
 
-/// Pixels by surface. Readings of what hides a part do not speak about it; nor do those at a grazing angle.
-void countReadings(const render::View& view, const Scan& scan, const render::Scene& scene, double gate_m, std::vector<SurfaceCheck>& checks) {
+/// The surface of each pixel, -1 where there is none, no reading, or one at too grazing an angle.
+int surfaceAt(const render::View& view, const Scan& scan, const render::Scene& scene, int u, int v) {
   constexpr float kMinIncidenceCos = 0.17F;
+  const int part = view.part.at<int>(v, u);
+  if (part < 0 || scan.at(u, v).point_camera.z() <= 0.0F) {
+    return -1;
+  }
+  const Eigen::Vector3f ray = scan.camera.ray(u, v).cast<float>();
+  const auto& normal = view.normal_camera.at<cv::Vec3f>(v, u);
+  const float along = -(normal[0] * ray.x() + normal[1] * ray.y() + normal[2] * ray.z());
+  return along < kMinIncidenceCos * ray.norm() ? -1 : scene.parts()[static_cast<std::size_t>(part)].model;
+}
+
+/// All readings by surface, and those that go through it: what is before a surface hides it and does not speak about it.
+void countReadings(const render::View& view, const Scan& scan, const render::Scene& scene, double near_m, std::vector<SurfaceCheck>& checks) {
   for (int v = 0; v < scan.camera.height; ++v) {
     for (int u = 0; u < scan.camera.width; ++u) {
-      const int part = view.part.at<int>(v, u);
-      const float seen_m = scan.at(u, v).point_camera.z();
-      if (part < 0 || seen_m <= 0.0F) {
-        continue;
+      const int surface = surfaceAt(view, scan, scene, u, v);
+      if (surface >= 0) {
+        SurfaceCheck& check = checks[static_cast<std::size_t>(surface)];
+        ++check.pixels;
+        const double behind_m = static_cast<double>(scan.at(u, v).point_camera.z() - view.depth_m.at<float>(v, u));
+        check.visible += behind_m > near_m ? 1 : 0;
       }
-      const Eigen::Vector3f ray = scan.camera.ray(u, v).cast<float>();
-      const auto& normal = view.normal_camera.at<cv::Vec3f>(v, u);
-      const float along = -(normal[0] * ray.x() + normal[1] * ray.y() + normal[2] * ray.z());
-      if (along < kMinIncidenceCos * ray.norm()) {
-        continue;
-      }
-      SurfaceCheck& check = checks[static_cast<std::size_t>(scene.parts()[static_cast<std::size_t>(part)].model)];
-      ++check.pixels;
-      const double before_m = static_cast<double>(along * (view.depth_m.at<float>(v, u) - seen_m));
-      check.visible += before_m <= gate_m ? 1 : 0;
     }
   }
 }
@@ -99,8 +103,8 @@ std::vector<std::string> SurfaceCheckConfig::validate() const {
   return rules.messages();
 }
 
-std::vector<SurfaceCheck> checkSurfaces(const LandmarkScene& scene, const Motion& motion, const Scan& scan, const StepMatrix& joint,
-                                        const SurfaceCheckConfig& config, int threads) {
+std::vector<SurfaceCheck> checkSurfaces(const LandmarkScene& scene, const Motion& motion, const Scan& scan, const ScanEdges& edges,
+                                        const StepMatrix& joint, const SurfaceCheckConfig& config, int threads) {
   render::ViewConfig view_config;
   view_config.with_normals = true;
   view_config.with_parts = true;
@@ -108,13 +112,22 @@ std::vector<SurfaceCheck> checkSurfaces(const LandmarkScene& scene, const Motion
   const Eigen::Isometry3d T_map_camera = motion.T_map_camera();
   const render::View view = render::renderView(scene.scene(), render::CameraRays(scan.camera), {T_map_camera, {}}, view_config);
   std::vector<SurfaceCheck> checks(scene.surfaces().size());
-  countReadings(view, scan, scene.scene(), config.gate_m, checks);
+  countReadings(view, scan, scene.scene(), config.near_m, checks);
   std::vector<std::vector<Pair>> pairs(checks.size());
   const PairRules rules{config.gate_m, std::cos(config.max_normal_deg * kDegree)};
-  for (const Pair& pair : projectivePairs(view, scan, T_map_camera, rules).pairs) {
+  const Eigen::Isometry3d T_camera_map = T_map_camera.inverse();
+  std::vector<Pair> all = projectivePairs(view, scan, T_map_camera, rules).pairs;
+  appendEdgePairs(view, scan, edges, T_map_camera, config.near_m, all);
+  for (const Pair& pair : all) {
     const auto surface = static_cast<std::size_t>(scene.scene().parts()[static_cast<std::size_t>(pair.part)].model);
     pairs[surface].push_back(pair);
-    checks[surface].agreeing += std::abs(pair.residual_m()) < config.near_m ? 1 : 0;
+    if (pair.is_edge) {
+      continue;
+    }
+    const bool agrees = std::abs(pair.residual_m()) < config.near_m;
+    checks[surface].agreeing += agrees ? 1 : 0;
+    const double behind_m = (T_camera_map.linear() * (pair.scan_map - pair.model_map)).z();
+    checks[surface].visible += behind_m > config.near_m ? 0 : 1;  // those are counted already
   }
   for (std::size_t s = 0; s < checks.size(); ++s) {
     checks[s].judged = checks[s].visible >= config.min_pixels;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "registration/edge_pairs.h"
 #include "registration/landmark/landmark_scene.h"
 #include "registration/motion.h"
 #include "registration/normal_equations.h"
@@ -15,13 +16,13 @@ namespace oikos::registration {
 struct SurfaceCheckConfig {
   double gate_m = 0.15;            ///< a shift up to here is measured; what stands farther before it counts as an occluder
   double max_normal_deg = 40.0;    ///< between the normals of a pair
-  int min_pixels = 40;             ///< of the scan, with a reading and nothing in front: fewer are not judged
-  double min_share = 0.5;          ///< of these, pixels that are where the part is
+  int min_pixels = 40;             ///< visible ones of the scan: fewer are not judged
+  double min_share = 0.65;         ///< of these, pixels that are where the part is
   double near_m = 0.05;            ///< and how near that is
   double surface_sigma_m = 0.005;  ///< what the model may be wrong by
   double normal_sigma_deg = 0.7;   ///< and its planes be turned by
   double min_observability = 10.0;
-  double chance = 0.001;  ///< how often a part that has not moved may be taken for one that has
+  double chance = 1e-5;    ///< how often a part that has not moved may be taken for one that has
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -40,7 +41,7 @@ struct SurfaceCheckConfig {
 
 struct SurfaceCheck {
   int pixels = 0;     ///< of the scan that it covers, with a reading
-  int visible = 0;    ///< of these, without anything in front
+  int visible = 0;    ///< of these, paired with it or behind it: what is before it hides it
   int agreeing = 0;   ///< of these, near its surface
   bool judged = false;
   /// The step that would bring the camera to where this part alone has it, along what it observes; and its squared length in deviations over
@@ -51,8 +52,8 @@ struct SurfaceCheck {
   [[nodiscard]] double share() const { return visible > 0 ? static_cast<double>(agreeing) / visible : 0.0; }
 };
 
-/// One check a surface of `scene`, from where `motion` stands; `joint` is the covariance of the estimate that all of them made.
+/// One check a surface of `scene`, from where `motion` stands; `edges` are those of the scan, `joint` is the covariance of the estimate that all of them made.
 [[nodiscard]] std::vector<SurfaceCheck> checkSurfaces(const LandmarkScene& scene, const Motion& motion, const Scan& scan,
-                                                      const StepMatrix& joint, const SurfaceCheckConfig& config, int threads);
+                                                      const ScanEdges& edges, const StepMatrix& joint, const SurfaceCheckConfig& config, int threads);
 
 }  // namespace oikos::registration

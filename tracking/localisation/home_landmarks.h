@@ -10,7 +10,8 @@
 
 namespace oikos::tracking {
 
-/// The furniture of a home that is not easily moved (`movability="fixed"`: S220, S223), as it is believed to stand. `home_folder` is
+/// The furniture of a home that is not easily moved (`movability="fixed"`: S220, S223), as it is believed to stand; rooms with an outline
+/// have walls that hide what is behind them. `home_folder` is
 /// where model files are. Throws Error for a model that cannot be made.
 [[nodiscard]] registration::LandmarkScene makeLandmarks(const semantic::Home& home, const std::filesystem::path& home_folder);
 

@@ -22,7 +22,7 @@ std::string poseText(const Eigen::Isometry3d& T) {
   const Eigen::Quaterniond q(T.linear());
   std::string text;
   for (const double number : {T.translation().x(), T.translation().y(), T.translation().z(), q.x(), q.y(), q.z(), q.w()}) {
-    text += "," + toText(number);
+    text.append(",").append(toText(number));
   }
   return text;
 }
@@ -31,7 +31,7 @@ std::string csvHead() {
   std::string head = "t_s,frame,source,map_status,map_inliers,landmark_status,tx_m,ty_m,tz_m,qx,qy,qz,qw";
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column) {
-      head += ",c" + std::to_string(row) + std::to_string(column);
+      head.append(",c").append(std::to_string(row)).append(std::to_string(column));
     }
   }
   return head + "\n";
@@ -48,7 +48,7 @@ std::string csvLine(const LocatedPose& pose) {
   line += poseText(pose.T_map_camera);
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column) {
-      line += "," + toText(pose.covariance(row, column));
+      line.append(",").append(toText(pose.covariance(row, column)));
     }
   }
   return line + "\n";
@@ -61,7 +61,7 @@ std::string landmarkLines(const LocatedPose& pose) {
              std::string(base::toString(piece.verdict)) + "," + std::to_string(piece.pixels) + "," + std::to_string(piece.agreeing) + "," +
              toText(piece.weight) + "," + toText(piece.contradiction) + ",";
     for (std::size_t i = 0; i < piece.dropped_parts.size(); ++i) {
-      lines += (i > 0 ? " " : "") + piece.dropped_parts[i];
+      lines.append(i > 0 ? " " : "").append(piece.dropped_parts[i]);
     }
     lines += "\n";
   }
@@ -74,7 +74,8 @@ std::filesystem::path besideLocated(const std::filesystem::path& file, const cha
   return file.parent_path() / (file.stem().string() + ending);
 }
 
-void writeLocated(const std::vector<LocatedPose>& poses, const std::filesystem::path& file) {
+void writeLocated(const std::vector<LocatedPose>& poses, const std::optional<Eigen::Isometry3d>& T_base_camera,
+                  const std::filesystem::path& file) {
   recording::Trajectory found;
   recording::Trajectory before;
   std::string csv = csvHead();
@@ -90,6 +91,12 @@ void writeLocated(const std::vector<LocatedPose>& poses, const std::filesystem::
     }
   }
   recording::writeTrajectory(found, file);
+  if (T_base_camera) {
+    for (recording::StampedPose& pose : found) {
+      pose.T_map_camera = pose.T_map_camera * T_base_camera->inverse();
+    }
+    recording::writeTrajectory(found, besideLocated(file, ".base.txt"));
+  }
   base::writeFileAtomically(besideLocated(file, ".csv"), csv);
   if (!before.empty()) {
     recording::writeTrajectory(before, besideLocated(file, ".before.txt"));
