@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well the fixed furniture corrects where the robot believes to be: a simulated drive through the kitchen of the demo home, kinect1, the
-// home believed wrongly by so many millimetres, from `prior.txt` (5 cm, 3 degrees), each frame on its own.
+// How well the fixed furniture corrects where the robot believes to be: a simulated drive through the kitchen of the demo home, kinect1,
+// the home believed wrongly by so many millimetres, from `prior.txt` (5 cm, 3 degrees), each frame on its own.
 //   landmark_bench [--belief-mm MM]… [--frames N] [--seed N] [--recording FOLDER] [--set KEY=VALUE]…
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "bench/locate/locate_score.h"
-#include "core/base/config.h"
 #include "core/base/atomic_file.h"
+#include "core/base/config.h"
 #include "core/recording/recording.h"
 #include "core/recording/trajectory.h"
 #include "semantic/xml/home_reader.h"
@@ -68,7 +68,7 @@ simulate::SceneScript kitchenDrive(double error_m, const Options& options) {
   script.camera.height_m = 1.2;  // a head's, which looks at the front of the room rather than at the floor
   script.camera.tilt_deg = 3.0;
   script.path.start = {0.5, 1.2, 90.0};
-  script.path.waypoints = {"0.6 1.3 look 15",  "0.75 1.45 look -20", "0.9 1.5 look 10",  "1.1 1.65 look 25",
+  script.path.waypoints = {"0.6 1.3 look 15",    "0.75 1.45 look -20", "0.9 1.5 look 10",  "1.1 1.65 look 25",
                            "1.05 1.75 look -15", "0.9 1.85 look -10",  "0.85 2.0 look 20", "0.9 2.1 look -15"};
   script.path.speed_mps = 0.15;
   script.path.turn_rate_dps = 15.0;
@@ -135,9 +135,15 @@ void runBelief(double belief_mm, const Options& options, const fs::path& scratch
     after.back().latency_s = latency_s;
     if (std::getenv("OIKOS_BENCH_FRAMES") != nullptr) {
       const auto& r = *located.landmarks;
-      std::printf("%3d %-12s %.2f cm %.2f deg nees %.1f n %d rounds %d overlap %.2f sig %.4f", i, std::string(base::toString(r.status)).c_str(), 100 * after.back().error_m,
-                  after.back().error_deg, after.back().nees, used(r), r.rounds, r.overlap, std::sqrt(r.covariance.topLeftCorner<3,3>().trace()));
-      for (const auto& p : r.landmarks) if (p.verdict == registration::LandmarkVerdict::kMoved || !p.dropped_parts.empty()) { std::printf(" %s:%s %.1f", p.id.c_str(), std::string(base::toString(p.verdict)).c_str(), p.contradiction); for (auto& d : p.dropped_parts) std::printf(",%s", d.c_str()); }
+      std::printf("%3d %-12s %.2f cm %.2f deg nees %.1f n %d rounds %d overlap %.2f sig %.4f", i,
+                  std::string(base::toString(r.status)).c_str(), 100 * after.back().error_m, after.back().error_deg, after.back().nees,
+                  used(r), r.rounds, r.overlap, std::sqrt(r.covariance.topLeftCorner<3, 3>().trace()));
+      for (const auto& p : r.landmarks)
+        if (p.verdict == registration::LandmarkVerdict::kMoved || !p.dropped_parts.empty()) {
+          std::printf(" %s:%s %.1f", p.id.c_str(), std::string(base::toString(p.verdict)).c_str(), p.contradiction);
+          for (auto& d : p.dropped_parts)
+            std::printf(",%s", d.c_str());
+        }
       std::printf("\n");
     }
   }

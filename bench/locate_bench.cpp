@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How well a camera is found again in a saved map: frames 0-399 of `kitchen` are mapped, frames 400-599 asked, each on its own and tracked.
 //   locate_bench [--home HOME] [--set KEY=VALUE]…
-// Errors are against groundtruth_sfm.txt, moved into the map by the rigid motion that aligns the mapped frames; nothing of the asked ones is
-// aligned. OIKOS_DATA is the folder of the recordings.
+// Errors are against groundtruth_sfm.txt, moved into the map by the rigid motion that aligns the mapped frames; nothing of the asked ones
+// is aligned. OIKOS_DATA is the folder of the recordings.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -114,9 +114,10 @@ void askAll(const mapping::Relocaliser& relocaliser, const recording::Recording&
     tracked.push_back(scored(followed, T_map_camera, secondsSince(begin)));
     nearest.push_back(scoreNearest(mapped, T_map_camera));
     if (std::getenv("OIKOS_BENCH_FRAMES") != nullptr) {
-      std::printf("%d: alone %.2f cm %.2f deg %d/%d nees %.1f; tracked %d %.2f cm %.2f deg %d/%d nees %.1f\n", i, 100 * alone.back().error_m, alone.back().error_deg,
-                  found.inliers, found.landmarks, alone.back().nees, static_cast<int>(followed.status), 100 * tracked.back().error_m,
-                  tracked.back().error_deg, followed.inliers, followed.landmarks, tracked.back().nees);
+      std::printf("%d: alone %.2f cm %.2f deg %d/%d nees %.1f; tracked %d %.2f cm %.2f deg %d/%d nees %.1f\n", i,
+                  100 * alone.back().error_m, alone.back().error_deg, found.inliers, found.landmarks, alone.back().nees,
+                  static_cast<int>(followed.status), 100 * tracked.back().error_m, tracked.back().error_deg, followed.inliers,
+                  followed.landmarks, tracked.back().nees);
     }
   }
   printScoreHead();

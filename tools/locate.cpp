@@ -32,7 +32,8 @@ constexpr const char* kExamples =
     "  oikos locate ~/homes/flat-3 ~/drives/flat-3-tuesday --out tuesday.txt\n"
     "  oikos locate homes/demo ~/drives/demo --prior ~/drives/demo/prior.txt --out refined.txt\n"
     "  oikos locate homes/demo ~/drives/demo --from 0,0,0 --object fridge --out refined.txt --json\n"
-    "Beside tuesday.txt (TUM, T_map_camera) are tuesday.csv with the 6x6 covariances, and tuesday.before.txt and tuesday.landmarks.csv if there\n"
+    "Beside tuesday.txt (TUM, T_map_camera) are tuesday.csv with the 6x6 covariances, and tuesday.before.txt and tuesday.landmarks.csv if "
+    "there\n"
     "is furniture to refine by. Exits with 1 if no frame was found.";
 
 struct LocateOptions {
@@ -138,8 +139,8 @@ void printJson(const Summary& summary, const std::filesystem::path& out) {
 
 void printText(const Summary& summary, const std::filesystem::path& out) {
   using base::toFixedText;
-  std::cout << summary.found << " of " << summary.frames << " frames found in " << toFixedText(summary.elapsed_s, 1) << " s: "
-            << summary.relocalised << " relocalised in the map, " << summary.tracked << " tracked, " << summary.refined
+  std::cout << summary.found << " of " << summary.frames << " frames found in " << toFixedText(summary.elapsed_s, 1)
+            << " s: " << summary.relocalised << " relocalised in the map, " << summary.tracked << " tracked, " << summary.refined
             << " refined by landmarks\n";
   if (summary.unreadable > 0) {
     std::cout << summary.unreadable << " frames could not be read\n";
@@ -165,7 +166,7 @@ void printText(const Summary& summary, const std::filesystem::path& out) {
 ExitCode locate(const LocateOptions& options, const Session& session) {
   const auto begin = std::chrono::steady_clock::now();
   const auto recording = recording::openRecording(options.recording, {.camera = options.camera});
-  LocateJob job{*recording, options.home, mountOf(options.mount, *recording), options.prior, {}, options.object, !options.no_landmarks,
+  LocateJob job{*recording,      options.home, mountOf(options.mount, *recording), options.prior, {}, options.object, !options.no_landmarks,
                 options.settings};
   if (!options.from.empty()) {
     job.from = parseFloorPlace(options.from, "--from");
@@ -181,7 +182,8 @@ ExitCode locate(const LocateOptions& options, const Session& session) {
 }  // namespace
 
 void addLocateCommand(CLI::App& root) {
-  CLI::App& command = addCommand(root, {"locate", "Finds where each frame of a drive was, in the map and by the furniture.", kExamples, true});
+  CLI::App& command =
+      addCommand(root, {"locate", "Finds where each frame of a drive was, in the map and by the furniture.", kExamples, true});
   const auto options = std::make_shared<LocateOptions>();
   declareOptions(command, *options);
   setAction(command, [options](const Session& session) { return locate(*options, session); });

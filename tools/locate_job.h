@@ -18,11 +18,11 @@ struct LocateJob {
   const recording::Recording& recording;
   std::filesystem::path home;
   std::optional<Eigen::Isometry3d> T_base_camera;
-  std::filesystem::path prior;              ///< TUM file, `T_map_base`; empty: none
-  std::optional<FloorPlace> from;           ///< where the robot was at the first frame
-  std::string object;                       ///< the one landmark to refine by; empty: all
-  bool has_landmarks = true;                ///< false: the map's answer as it is
-  std::vector<std::string> settings;        ///< KEY=VALUE
+  std::filesystem::path prior;        ///< TUM file, `T_map_base`; empty: none
+  std::optional<FloorPlace> from;     ///< where the robot was at the first frame
+  std::string object;                 ///< the one landmark to refine by; empty: all
+  bool has_landmarks = true;          ///< false: the map's answer as it is
+  std::vector<std::string> settings;  ///< KEY=VALUE
 };
 
 struct Located {

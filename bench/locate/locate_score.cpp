@@ -56,8 +56,8 @@ double quantile(std::vector<double> values, double share) {
 }
 
 void printScoreHead() {
-  std::printf("%-26s %6s %6s %8s %6s | %7s %7s %7s | %6s %6s %6s | %6s %6s | %8s %8s\n", "", "frames", "found", "5cm,5deg", "low",
-              "med cm", "mean", "p95", "med d", "mean", "p95", "NEES/6", "n95", "ms med", "ms p95");
+  std::printf("%-26s %6s %6s %8s %6s | %7s %7s %7s | %6s %6s %6s | %6s %6s | %8s %8s\n", "", "frames", "found", "5cm,5deg", "low", "med cm",
+              "mean", "p95", "med d", "mean", "p95", "NEES/6", "n95", "ms med", "ms p95");
 }
 
 void printFrameScores(const std::string& name, const std::vector<FrameScore>& scores) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNear_m = 0.1;
 constexpr double kBorder_px = 8.0;
-constexpr double kHidden = 1.15;  ///< farther than the reading by this factor: something stands in front
+constexpr double kHidden = 1.15;     ///< farther than the reading by this factor: something stands in front
 constexpr std::size_t kSampled = 4;  ///< every fourth landmark tells whether a keyframe is worth its others
 
 /// Whether a camera at T_map_camera sees landmarks, as far as one can tell beforehand.
@@ -26,9 +26,7 @@ class Visibility {
         depth_m_(depth_m),
         min_view_cos_(std::cos(max_view_deg * 3.14159265358979 / 180.0)) {}
 
-  void look(int node) {
-    T_camera_host_ = T_camera_map_ * map_.graph().nodes[static_cast<std::size_t>(node)].T_world_camera;
-  }
+  void look(int node) { T_camera_host_ = T_camera_map_ * map_.graph().nodes[static_cast<std::size_t>(node)].T_world_camera; }
   /// Of the node that was looked at last.
   [[nodiscard]] bool sees(int landmark) const {
     const Eigen::Vector3d point_host = pointInHost(map_.graph().landmarks[static_cast<std::size_t>(landmark)], map_.camera());

@@ -11,8 +11,8 @@
 
 namespace oikos::mapping {
 
-/// Follows a camera through a saved map, frame by frame: from its last pose and motion, by Relocaliser::find when it is lost. Nothing is added
-/// to the map. Not thread-safe.
+/// Follows a camera through a saved map, frame by frame: from its last pose and motion, by Relocaliser::find when it is lost. Nothing is
+/// added to the map. Not thread-safe.
 class MapTracker {
  public:
   /// `relocaliser` outlives the tracker.

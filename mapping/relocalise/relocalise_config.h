@@ -17,13 +17,13 @@ struct RelocaliseConfig {
   RelativeMotionConfig motion{.min_inliers = 12, .min_inlier_ratio = 0.2, .min_spread = 0.02};
   FollowerConfig follower;
   int pyramid_levels = 5;
-  int candidates = 8;         ///< places verified per frame, the likeliest first
-  int min_votes = 8;          ///< a place with fewer is not verified
-  int local_keyframes = 6;    ///< keyframes that lend their landmarks: those with most in view
-  int most_landmarks = 900;   ///< looked for in one frame
-  double max_view_deg = 45.0; ///< between the rays to a landmark from its keyframe and from here
-  double map_sigma_m = 0.007; ///< what the map's own poses are off by from one place to the next
-  double map_sigma_deg = 0.2; ///< and turned; both are added to the covariance
+  int candidates = 8;          ///< places verified per frame, the likeliest first
+  int min_votes = 8;           ///< a place with fewer is not verified
+  int local_keyframes = 6;     ///< keyframes that lend their landmarks: those with most in view
+  int most_landmarks = 900;    ///< looked for in one frame
+  double max_view_deg = 45.0;  ///< between the rays to a landmark from its keyframe and from here
+  double map_sigma_m = 0.007;  ///< what the map's own poses are off by from one place to the next
+  double map_sigma_deg = 0.2;  ///< and turned; both are added to the covariance
 
   template <class Visitor>
   void visit(Visitor&& visitor) {

@@ -48,10 +48,8 @@ LocateResult Relocaliser::find(const LocatedFrame& located) const {
     }
     result.status = LocateStatus::kGeometryDisagrees;
     const Features& old = map_.features(place.place);
-    const std::uint64_t seed =
-        seed_ ^ (static_cast<std::uint64_t>(located.frame.index) << 32U) ^ static_cast<std::uint64_t>(place.place);
-    const RelativeMotion motion =
-        estimateMotion(old, features, matchFeatures(old, features), map_.camera(), config_.motion, seed);
+    const std::uint64_t seed = seed_ ^ (static_cast<std::uint64_t>(located.frame.index) << 32U) ^ static_cast<std::uint64_t>(place.place);
+    const RelativeMotion motion = estimateMotion(old, features, matchFeatures(old, features), map_.camera(), config_.motion, seed);
     if (motion.status != MotionStatus::kConverged) {
       continue;
     }

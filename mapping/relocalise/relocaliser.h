@@ -42,8 +42,8 @@ struct [[nodiscard]] LocateResult {
 };
 
 /// Finds single frames in a saved map without any prior (S39-S40): likely places by their features, three-point RANSAC on features with
-/// depth against each, then the landmarks of all keyframes about, aligned photometrically. Thread-safe; the answer depends on the frame, its
-/// index, and the seed only.
+/// depth against each, then the landmarks of all keyframes about, aligned photometrically. Thread-safe; the answer depends on the frame,
+/// its index, and the seed only.
 class Relocaliser {
  public:
   /// `map` outlives the relocaliser.

@@ -31,12 +31,12 @@ struct Unit {
 
 /// Which surfaces are believed to stand where they are thought to, and what follows.
 struct Hypothesis {
-  std::vector<char> used;      ///< one a surface
-  std::vector<double> moved;   ///< one a landmark: the contradiction that it was left out for, or 0
-  std::vector<int> dropped;    ///< surfaces of pieces that stay
+  std::vector<char> used;     ///< one a surface
+  std::vector<double> moved;  ///< one a landmark: the contradiction that it was left out for, or 0
+  std::vector<int> dropped;   ///< surfaces of pieces that stay
   Solution solution;
   std::vector<SurfaceCheck> checks;
-  double score = 0.0;          ///< pixels that agree less those that contradict
+  double score = 0.0;  ///< pixels that agree less those that contradict
 
   [[nodiscard]] bool contradicts(std::size_t surface) const { return used[surface] != 0 && checks[surface].contradiction > 1.0; }
   [[nodiscard]] bool contradictsAnywhere() const {
@@ -183,7 +183,8 @@ class Refiner {
   }
 
   [[nodiscard]] double leastPixels() const {
-    const auto readings = std::count_if(scan_.points.begin(), scan_.points.end(), [](const ScanPoint& p) { return p.point_camera.z() > 0.0F; });
+    const auto readings =
+        std::count_if(scan_.points.begin(), scan_.points.end(), [](const ScanPoint& p) { return p.point_camera.z() > 0.0F; });
     return std::max(1.0, config_.min_share * static_cast<double>(readings));
   }
 

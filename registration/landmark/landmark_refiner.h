@@ -19,15 +19,15 @@ namespace oikos::registration {
 struct LandmarkConfig {
   AlignConfig align;
   SurfaceCheckConfig check;
-  double min_share = 0.005;       ///< of the scan's readings; a piece that covers less is not in view
-  int min_landmarks = 2;          ///< pieces that must agree; one alone cannot tell whether it was moved
-  int max_rounds = 6;             ///< of solving and leaving out what disagrees
-  double yaw_step_deg = 6.0;      ///< a fit that is not good is tried again from turns to both sides,
-  double aside_step_m = 0.12;     ///< and from places to both sides
-  double good_overlap = 0.7;      ///< a fit that is, if nothing contradicts it
-  double max_deviations = 5.0;    ///< of the correction, in those of prior and fit together
-  double upright_sigma_m = 0.01;  ///< of the camera's height, which is not corrected,
-  double upright_sigma_deg = 0.4; ///< and of its tilt
+  double min_share = 0.005;        ///< of the scan's readings; a piece that covers less is not in view
+  int min_landmarks = 2;           ///< pieces that must agree; one alone cannot tell whether it was moved
+  int max_rounds = 6;              ///< of solving and leaving out what disagrees
+  double yaw_step_deg = 6.0;       ///< a fit that is not good is tried again from turns to both sides,
+  double aside_step_m = 0.12;      ///< and from places to both sides
+  double good_overlap = 0.7;       ///< a fit that is, if nothing contradicts it
+  double max_deviations = 5.0;     ///< of the correction, in those of prior and fit together
+  double upright_sigma_m = 0.01;   ///< of the camera's height, which is not corrected,
+  double upright_sigma_deg = 0.4;  ///< and of its tilt
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -76,10 +76,11 @@ constexpr auto enumTable(LandmarkVerdict) {
 struct LandmarkContribution {
   std::string id;
   LandmarkVerdict verdict = LandmarkVerdict::kHidden;
-  int pixels = 0;             ///< of the scan, with a reading
-  int agreeing = 0;           ///< of these, near its surface at the answer
-  double weight = 0.0;        ///< its share of all agreeing pixels
-  double contradiction = 0.0; ///< of its worst part that was not left out: above 1 it would have been; of a moved piece: what it was left out for
+  int pixels = 0;       ///< of the scan, with a reading
+  int agreeing = 0;     ///< of these, near its surface at the answer
+  double weight = 0.0;  ///< its share of all agreeing pixels
+  double contradiction =
+      0.0;  ///< of its worst part that was not left out: above 1 it would have been; of a moved piece: what it was left out for
   std::vector<std::string> dropped_parts;  ///< of a changed piece
 };
 
@@ -104,9 +105,9 @@ struct [[nodiscard]] LandmarkRefinement {
   std::vector<LandmarkContribution> landmarks;  ///< those in view, in the scene's order
 };
 
-/// One planar correction of the camera from all fixed furniture in view at once (S210-S219, S223). Pieces and parts that contradict what the
-/// others say are left out one after the other; if not enough remain, or as many pieces were left out as remain, the answer is that
-/// the landmarks are inconsistent. `scene`: surfaces are shown and hidden meanwhile. `only`: one landmark on demand, which then suffices.
+/// One planar correction of the camera from all fixed furniture in view at once (S210-S219, S223). Pieces and parts that contradict what
+/// the others say are left out one after the other; if not enough remain, or as many pieces were left out as remain, the answer is that the
+/// landmarks are inconsistent. `scene`: surfaces are shown and hidden meanwhile. `only`: one landmark on demand, which then suffices.
 [[nodiscard]] LandmarkRefinement refineByLandmarks(LandmarkScene& scene, const Scan& scan, const CameraPrior& prior,
                                                    const LandmarkConfig& config, std::optional<int> only = std::nullopt);
 

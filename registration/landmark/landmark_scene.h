@@ -19,8 +19,8 @@ struct LandmarkSurface {
   bool is_base = false;  ///< it does not move while the piece stands; a door does
 };
 
-/// Furniture that is believed to stand where it was put (S220), each part of it a model of its own in the scene, so that an opened door can be
-/// left out and its cupboard kept. Surface i is model i of the scene. Not thread-safe.
+/// Furniture that is believed to stand where it was put (S220), each part of it a model of its own in the scene, so that an opened door can
+/// be left out and its cupboard kept. Surface i is model i of the scene. Not thread-safe.
 class LandmarkScene {
  public:
   /// Returns the landmark's number. Throws as render::Scene::add. `joint_values`: what is believed of doors and drawers.
@@ -41,7 +41,7 @@ class LandmarkScene {
 
  private:
   render::Scene scene_;
-  render::Scene whole_;  ///< all surfaces, always shown, and the occluders
+  render::Scene whole_;                ///< all surfaces, always shown, and the occluders
   std::vector<int> surface_of_whole_;  ///< of each model of `whole_`; -1: an occluder
   std::vector<std::string> ids_;
   std::vector<LandmarkSurface> surfaces_;

@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Wilson and Hilferty's approximation of the quantile of chi squared (1931, doi:10.1073/pnas.17.12.684): within 2 % down to chances of 1e-4.
+/// Wilson and Hilferty's approximation of the quantile of chi squared (1931, doi:10.1073/pnas.17.12.684): within 2 % down to chances of
+/// 1e-4.
 double chiSquareQuantile(int freedoms, double normal_quantile) {
   const double k = 2.0 / (9.0 * freedoms);
   return freedoms * std::pow(1.0 - k + normal_quantile * std::sqrt(k), 3.0);
@@ -44,7 +45,8 @@ int surfaceAt(const render::View& view, const Scan& scan, const render::Scene& s
 }
 
 /// All readings by surface, and those that go through it: what is before a surface hides it and does not speak about it.
-void countReadings(const render::View& view, const Scan& scan, const render::Scene& scene, double near_m, std::vector<SurfaceCheck>& checks) {
+void countReadings(const render::View& view, const Scan& scan, const render::Scene& scene, double near_m,
+                   std::vector<SurfaceCheck>& checks) {
   for (int v = 0; v < scan.camera.height; ++v) {
     for (int u = 0; u < scan.camera.width; ++u) {
       const int surface = surfaceAt(view, scan, scene, u, v);
@@ -61,8 +63,7 @@ void countReadings(const render::View& view, const Scan& scan, const render::Sce
 /// Solves the surface's own equations along what they observe.
 void solveAlone(const std::vector<Pair>& pairs, const Motion& motion, const StepMatrix& joint, const SurfaceCheckConfig& config,
                 SurfaceCheck& check) {
-  const NormalEquations equations =
-      sumUp(pairs, motion, {config.surface_sigma_m, config.normal_sigma_deg * kDegree, config.gate_m / 3.0});
+  const NormalEquations equations = sumUp(pairs, motion, {config.surface_sigma_m, config.normal_sigma_deg * kDegree, config.gate_m / 3.0});
   const Observability observability = observe(equations);
   const double scale = equations.weight > 0.0 ? std::max(1.0, equations.squares / equations.weight) : 1.0;
   check.own = Step::Zero(motion.dimension());

@@ -22,7 +22,7 @@ struct SurfaceCheckConfig {
   double surface_sigma_m = 0.005;  ///< what the model may be wrong by
   double normal_sigma_deg = 0.7;   ///< and its planes be turned by
   double min_observability = 10.0;
-  double chance = 1e-5;    ///< how often a part that has not moved may be taken for one that has
+  double chance = 1e-5;  ///< how often a part that has not moved may be taken for one that has
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -40,20 +40,22 @@ struct SurfaceCheckConfig {
 };
 
 struct SurfaceCheck {
-  int pixels = 0;     ///< of the scan that it covers, with a reading
-  int visible = 0;    ///< of these, paired with it or behind it: what is before it hides it
-  int agreeing = 0;   ///< of these, near its surface
+  int pixels = 0;    ///< of the scan that it covers, with a reading
+  int visible = 0;   ///< of these, paired with it or behind it: what is before it hides it
+  int agreeing = 0;  ///< of these, near its surface
   bool judged = false;
-  /// The step that would bring the camera to where this part alone has it, along what it observes; and its squared length in deviations over
-  /// the value that chance allows: above 1 it has moved.
+  /// The step that would bring the camera to where this part alone has it, along what it observes; and its squared length in deviations
+  /// over the value that chance allows: above 1 it has moved.
   Step own;
   double contradiction = 0.0;
 
   [[nodiscard]] double share() const { return visible > 0 ? static_cast<double>(agreeing) / visible : 0.0; }
 };
 
-/// One check a surface of `scene`, from where `motion` stands; `edges` are those of the scan, `joint` is the covariance of the estimate that all of them made.
+/// One check a surface of `scene`, from where `motion` stands; `edges` are those of the scan, `joint` is the covariance of the estimate
+/// that all of them made.
 [[nodiscard]] std::vector<SurfaceCheck> checkSurfaces(const LandmarkScene& scene, const Motion& motion, const Scan& scan,
-                                                      const ScanEdges& edges, const StepMatrix& joint, const SurfaceCheckConfig& config, int threads);
+                                                      const ScanEdges& edges, const StepMatrix& joint, const SurfaceCheckConfig& config,
+                                                      int threads);
 
 }  // namespace oikos::registration

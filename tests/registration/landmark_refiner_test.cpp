@@ -295,8 +295,8 @@ TEST(LandmarkRefiner, WhatIsNotObservedIsThePriors) {
   world.commit();
   const Eigen::Isometry3d T_map_camera = test::lookAt({0.0, 0.0, 1.2}, {0.4, 2.5, 1.2});
   const camera::PinholeCamera camera = test::kinectCamera();
-  const Scan scan = makeScan(
-      test::sensed(test::viewOf(world, camera, T_map_camera), camera, camera::DepthSensorKind::kIdeal, 1), camera, {});
+  const Scan scan =
+      makeScan(test::sensed(test::viewOf(world, camera, T_map_camera), camera, camera::DepthSensorKind::kIdeal, 1), camera, {});
   LandmarkConfig config;
   config.min_landmarks = 1;
   const LandmarkRefinement result = refineByLandmarks(scene, scan, priorOff(T_map_camera, 0.05, 0.05, 2.0), config);

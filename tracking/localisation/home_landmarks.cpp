@@ -40,9 +40,8 @@ model::TriangleMesh wallsOf(const std::vector<Eigen::Vector2d>& outline_map) {
     const Eigen::Vector2d along = outline_map[(i + 1) % outline_map.size()] - from;
     const Eigen::Vector2d outwards = side * Eigen::Vector2d(along.y(), -along.x()).normalized();
     const Eigen::Vector2d middle = from + 0.5 * along + kBehind_m * outwards;
-    const Eigen::Isometry3d T_map_wall =
-        Eigen::Translation3d(middle.x(), middle.y(), 0.5 * kWallHeight_m) *
-        Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ());
+    const Eigen::Isometry3d T_map_wall = Eigen::Translation3d(middle.x(), middle.y(), 0.5 * kWallHeight_m) *
+                                         Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ());
     append(walls, model::makeBox(Eigen::Vector3d(along.norm() + 2.0 * kBehind_m, kThickness_m, kWallHeight_m).cast<float>()), T_map_wall);
   }
   return walls;

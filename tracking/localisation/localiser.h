@@ -26,10 +26,10 @@ struct LocaliseConfig {
   mapping::RelocaliseConfig map;
   registration::ScanConfig scan;
   registration::LandmarkConfig landmarks;
-  double prior_sigma_m = 0.05;        ///< of a given prior's x and y each
-  double prior_sigma_deg = 3.0;       ///< and of its yaw
-  double map_prior_sigma_m = 0.02;    ///< how well map and furniture agree about the place,
-  double map_prior_sigma_deg = 1.0;   ///< and the heading
+  double prior_sigma_m = 0.05;       ///< of a given prior's x and y each
+  double prior_sigma_deg = 3.0;      ///< and of its yaw
+  double map_prior_sigma_m = 0.02;   ///< how well map and furniture agree about the place,
+  double map_prior_sigma_deg = 1.0;  ///< and the heading
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -60,10 +60,10 @@ struct LocatedPose {
   std::int64_t stamp_ns = 0;
   PoseSource source = PoseSource::kNone;
   Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
-  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();          ///< of the right perturbation (m, rad)
-  std::optional<Eigen::Isometry3d> T_map_camera_before;                ///< what the landmarks refined: from the map, or the prior
-  mapping::LocateResult in_map;                                        ///< of a localiser with a map
-  std::optional<registration::LandmarkRefinement> landmarks;           ///< if there was something to refine
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< of the right perturbation (m, rad)
+  std::optional<Eigen::Isometry3d> T_map_camera_before;        ///< what the landmarks refined: from the map, or the prior
+  mapping::LocateResult in_map;                                ///< of a localiser with a map
+  std::optional<registration::LandmarkRefinement> landmarks;   ///< if there was something to refine
 };
 
 /// What a localiser works with; all of it outlives it. Without a map a prior is needed, without furniture there is no refinement.
@@ -77,7 +77,8 @@ struct LocaliserTools {
   const mapping::WheelOdometry* odometry = nullptr;
 };
 
-/// Finds a drive's frames, one after the other: in the map without a prior, tracked on, then refined by the furniture in view. Not thread-safe.
+/// Finds a drive's frames, one after the other: in the map without a prior, tracked on, then refined by the furniture in view. Not
+/// thread-safe.
 class Localiser {
  public:
   Localiser(const LocaliserTools& tools, const LocaliseConfig& config);

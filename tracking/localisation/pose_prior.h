@@ -10,7 +10,8 @@
 
 namespace oikos::tracking {
 
-/// Where something else believes the robot to be: a localisation's `T_map_base` over time, or one pose at the start that the wheels carry on.
+/// Where something else believes the robot to be: a localisation's `T_map_base` over time, or one pose at the start that the wheels carry
+/// on.
 class PosePrior {
  public:
   /// Knows nothing.
