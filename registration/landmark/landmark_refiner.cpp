@@ -57,7 +57,7 @@ class Refiner {
   LandmarkRefinement run() {
     LandmarkRefinement answer;
     answer.T_map_camera = prior_.T_map_camera;
-    answer.covariance = covariance6(priorCovariance(), prior_.T_map_camera);
+    answer.covariance = covariance6(planarCovariance(prior_), prior_.T_map_camera);
     best_.used = inView();
     best_.moved.assign(scene_.ids().size(), 0.0);
     if (std::count(best_.used.begin(), best_.used.end(), 1) == 0) {
@@ -239,31 +239,16 @@ class Refiner {
     return fits ? RefinementStatus::kRefined : RefinementStatus::kNotConverged;
   }
 
-  [[nodiscard]] StepMatrix priorCovariance() const {
-    StepMatrix covariance = StepMatrix::Zero(3, 3);
-    covariance.diagonal() << prior_.sigma_m * prior_.sigma_m, prior_.sigma_m * prior_.sigma_m, prior_.sigma_rad * prior_.sigma_rad;
-    return covariance;
-  }
-
-  /// From the solution back to the prior: x, y, yaw about the robot's middle.
-  [[nodiscard]] Step backToPrior(const Solution& solution) const {
-    Step back(3);
-    back.head<2>() = (prior_.T_map_camera * prior_.robot_camera - solution.T_map_camera * prior_.robot_camera).head<2>();
-    const Eigen::Matrix3d R = prior_.T_map_camera.linear() * solution.T_map_camera.linear().transpose();
-    back(2) = std::atan2(R(1, 0), R(0, 0));
-    return back;
-  }
-
   [[nodiscard]] double deviations(const Solution& solution) const {
-    const Step back = backToPrior(solution);
-    return std::sqrt(back.dot((solution.fit.covariance + priorCovariance()).ldlt().solve(back)));
+    const Step back = stepToPrior(prior_, solution.T_map_camera);
+    return std::sqrt(back.dot((solution.fit.covariance + planarCovariance(prior_)).ldlt().solve(back)));
   }
 
   /// The prior answers for what was not observed.
   void fuse(const Solution& solution, LandmarkRefinement& answer) const {
     const StepMatrix fit = solution.fit.covariance;
-    const StepMatrix gain = fit * (fit + priorCovariance()).inverse();
-    const Step step = gain * backToPrior(solution);
+    const StepMatrix gain = fit * (fit + planarCovariance(prior_)).inverse();
+    const Step step = gain * stepToPrior(prior_, solution.T_map_camera);
     CameraMotion motion(scene_.scene(), solution.T_map_camera, PoseFreedom::kPlanar, prior_.robot_camera);
     motion.apply(step);
     answer.T_map_camera = motion.T_map_camera();
@@ -273,21 +258,8 @@ class Refiner {
     answer.moved_rad = Eigen::AngleAxisd(prior_.T_map_camera.linear().transpose() * answer.T_map_camera.linear()).angle();
   }
 
-  /// Of the right perturbation of T_map_camera, from x, y, yaw about the robot's middle along the axes of map.
   [[nodiscard]] geometry::Matrix6d covariance6(const StepMatrix& planar, const Eigen::Isometry3d& T_map_camera) const {
-    const double tilt_rad = config_.upright_sigma_deg * kDegree;
-    geometry::Matrix6d about_robot = geometry::Matrix6d::Zero();
-    constexpr std::array<Eigen::Index, 3> kPlanarIndex = {0, 1, 5};
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        about_robot(kPlanarIndex[i], kPlanarIndex[j]) = planar(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      }
-    }
-    about_robot(2, 2) = config_.upright_sigma_m * config_.upright_sigma_m;
-    about_robot(3, 3) = about_robot(4, 4) = tilt_rad * tilt_rad;
-    const Eigen::Isometry3d T_map_robot(Eigen::Translation3d(T_map_camera * prior_.robot_camera));
-    const geometry::Matrix6d A = geometry::adjoint(T_map_camera.inverse() * T_map_robot);
-    return A * about_robot * A.transpose();
+    return cameraCovariance(planar, {config_.upright_sigma_m, config_.upright_sigma_deg * kDegree}, T_map_camera, prior_.robot_camera);
   }
 
   LandmarkScene& scene_;

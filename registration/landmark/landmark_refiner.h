@@ -11,6 +11,7 @@
 #include "core/base/enum_table.h"
 #include "core/geometry/se3.h"
 #include "registration/align.h"
+#include "registration/landmark/camera_prior.h"
 #include "registration/landmark/landmark_scene.h"
 #include "registration/landmark/surface_check.h"
 
@@ -82,14 +83,6 @@ struct LandmarkContribution {
   double contradiction =
       0.0;  ///< of its worst part that was not left out: above 1 it would have been; of a moved piece: what it was left out for
   std::vector<std::string> dropped_parts;  ///< of a changed piece
-};
-
-/// Where the camera is believed to be. It stands upright as it should: only x, y and yaw about map z are in doubt (S216, S219).
-struct CameraPrior {
-  Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d robot_camera = Eigen::Vector3d::Zero();  ///< the robot's middle, about which it turns
-  double sigma_m = 0.05;                                   ///< of the robot's x and y each
-  double sigma_rad = 0.0524;                               ///< of its yaw
 };
 
 struct [[nodiscard]] LandmarkRefinement {
