@@ -24,6 +24,8 @@
 #include "core/metrics/trajectory_association.h"
 #include "core/recording/recording.h"
 #include "core/recording/trajectory.h"
+#include "mapping/graph/keyframe_reader.h"
+#include "mapping/graph/keyframe_store.h"
 #include "mapping/relocalise/map_tracker.h"
 #include "mapping/relocalise/relocaliser.h"
 #include "mapping/relocalise/saved_map.h"
@@ -113,17 +115,26 @@ void askAll(const mapping::Relocaliser& relocaliser, const recording::Recording&
     const mapping::LocateResult followed = tracker.add(frame);
     tracked.push_back(scored(followed, T_map_camera, secondsSince(begin)));
     nearest.push_back(scoreNearest(mapped, T_map_camera));
-    if (std::getenv("OIKOS_BENCH_FRAMES") != nullptr) {
-      std::printf("%d: alone %.2f cm %.2f deg %d/%d nees %.1f; tracked %d %.2f cm %.2f deg %d/%d nees %.1f\n", i,
-                  100 * alone.back().error_m, alone.back().error_deg, found.inliers, found.landmarks, alone.back().nees,
-                  static_cast<int>(followed.status), 100 * tracked.back().error_m, tracked.back().error_deg, followed.inliers,
-                  followed.landmarks, tracked.back().nees);
-    }
   }
   printScoreHead();
   printFrameScores("each on its own", alone);
   printFrameScores("tracked", tracked);
   printFrameScores("nearest mapped frame", nearest);
+}
+
+/// A store of so many keyframes, the map's own over and over.
+void timeOpening(const fs::path& file, int keyframes, const fs::path& scratch) {
+  const mapping::KeyframeStore store = mapping::readKeyframeStore(file);
+  mapping::KeyframeStoreWriter writer(scratch / "many.sqlite", store.camera);
+  for (int id = 0; id < keyframes; ++id) {
+    mapping::StoredKeyframe keyframe = store.keyframes[static_cast<std::size_t>(id) % store.keyframes.size()];
+    keyframe.id = id;
+    writer.add(keyframe, mapping::encodePictures(keyframe.color, keyframe.depth_m));
+  }
+  writer.commit();
+  const auto begin = std::chrono::steady_clock::now();
+  const mapping::SavedMap map(scratch / "many.sqlite");
+  std::printf("%d keyframes opened in %.3f s\n", map.keyframeCount(), secondsSince(begin));
 }
 
 void run(const Options& options, const fs::path& data) {
@@ -147,6 +158,7 @@ void run(const Options& options, const fs::path& data) {
   const auto mapped = recording::readTrajectory(home / "map" / "trajectory.txt");
   const auto truth = truthInMap(mapped, recording::readTrajectory(source / "groundtruth_sfm.txt"));
   askAll(mapping::Relocaliser(map, config, 0), *recording::openRecording(scratch.path() / "asked"), truth, mapped);
+  timeOpening(home / "map" / "keyframes.sqlite", 500, scratch.path());
 }
 
 }  // namespace
