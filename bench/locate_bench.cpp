@@ -17,11 +17,10 @@
 #include <vector>
 
 #include "bench/locate/locate_score.h"
+#include "bench/locate/mapped_truth.h"
 #include "bench/mapping/mapping_run.h"
 #include "bench/mapping/recording_variants.h"
 #include "core/base/config.h"
-#include "core/geometry/rigid_alignment.h"
-#include "core/metrics/trajectory_association.h"
 #include "core/recording/recording.h"
 #include "core/recording/trajectory.h"
 #include "mapping/graph/keyframe_reader.h"
@@ -39,7 +38,6 @@ namespace fs = std::filesystem;
 
 constexpr int kMapped = 400;
 constexpr int kAll = 600;
-constexpr std::int64_t kSameStamp_ns = 1'000'000;
 
 struct Options {
   fs::path home;  ///< empty: mapped here
@@ -48,35 +46,6 @@ struct Options {
 
 double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-/// The reference poses in the map's frame.
-recording::Trajectory truthInMap(const recording::Trajectory& mapped, const recording::Trajectory& truth) {
-  std::vector<Eigen::Vector3d> in_map;
-  std::vector<Eigen::Vector3d> in_truth;
-  for (const metrics::PosePair& pair : metrics::associate(mapped, truth, metrics::Association::kNearest, kSameStamp_ns)) {
-    in_map.emplace_back(pair.T_estimate_camera.translation());
-    in_truth.emplace_back(pair.T_truth_camera.translation());
-  }
-  const geometry::RigidAlignment alignment = geometry::alignRigid(in_map, in_truth);
-  if (alignment.status != geometry::RigidAlignmentStatus::kAligned) {
-    throw std::runtime_error("the mapped frames cannot be aligned");
-  }
-  std::printf("map to truth over %zu mapped frames: %.2f cm rms\n", in_map.size(), 100.0 * alignment.rms_m);
-  recording::Trajectory moved = truth;
-  for (recording::StampedPose& pose : moved) {
-    pose.T_map_camera = alignment.T_a_b * pose.T_map_camera;
-  }
-  return moved;
-}
-
-const Eigen::Isometry3d& poseAt(const recording::Trajectory& truth, std::int64_t stamp_ns) {
-  for (const recording::StampedPose& pose : truth) {
-    if (std::abs(pose.stamp_ns - stamp_ns) < kSameStamp_ns) {
-      return pose.T_map_camera;
-    }
-  }
-  throw std::runtime_error("a frame without a true pose");
 }
 
 /// What one would have by knowing the best mapped frame and nothing more: the nearest, a degree as far as a centimetre.
