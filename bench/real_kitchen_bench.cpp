@@ -44,6 +44,7 @@ constexpr int kStride = 5;
 struct Options {
   fs::path pictures;
   std::vector<std::string> settings;
+  bool leaves_out = true;
 };
 
 /// A frame and where it truly was, in the map, by two witnesses.
@@ -190,7 +191,7 @@ void run(const Options& options, const fs::path& data) {
       "|\n|---|---|---|---|---|---|---|\n");
   registration::LandmarkScene all = tracking::makeLandmarks(home, folder);
   print("nothing", refineAll(all, asked, config, recording->camera(), options.pictures));
-  for (const std::string& id : all.ids()) {
+  for (const std::string& id : options.leaves_out ? all.ids() : std::vector<std::string>()) {
     registration::LandmarkScene fewer = landmarksWithout(home, folder, id);
     print("`" + id + "`", refineAll(fewer, asked, config, recording->camera(), {}));
   }
@@ -203,6 +204,7 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("--pictures", options.pictures, "folder for the furniture's outlines over each frame, before and after");
   app.add_option("--set", options.settings, "KEY=VALUE of the landmarks' configuration; may be repeated")->allow_extra_args(false);
+  app.add_flag("!--all-furniture-only", options.leaves_out, "no rows with a piece left out");
   CLI11_PARSE(app, argc, argv);
   const char* data = std::getenv("OIKOS_DATA");
   if (data == nullptr) {

@@ -19,7 +19,7 @@ struct SurfaceCheckConfig {
   int min_pixels = 40;             ///< visible ones of the scan: fewer are not judged
   double min_share = 0.65;         ///< of these, pixels that are where the part is
   double near_m = 0.05;            ///< and how near that is
-  double surface_sigma_m = 0.005;  ///< what the model may be wrong by
+  double surface_sigma_m = 0.010;  ///< what the model and the sensor may be wrong by
   double normal_sigma_deg = 0.7;   ///< and its planes be turned by
   double min_observability = 10.0;
   double chance = 1e-5;  ///< how often a part that has not moved may be taken for one that has

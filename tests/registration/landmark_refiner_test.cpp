@@ -236,7 +236,8 @@ TEST(LandmarkRefiner, APersonBeforeThemHidesAndDoesNotContradict) {
     const LandmarkRefinement result = refineByLandmarks(scene, room.scan(), priorOff(room.T_map_camera, 0.04, 0.03, 2.0), {});
     ASSERT_EQ(result.status, RefinementStatus::kRefined) << x;
     for (const LandmarkContribution& piece : result.landmarks) {
-      EXPECT_NE(piece.verdict, LandmarkVerdict::kMoved) << piece.id << " " << x;
+      EXPECT_NE(piece.verdict, LandmarkVerdict::kMoved) << piece.id << " " << x << " contradiction " << piece.contradiction << " pixels "
+                                                        << piece.pixels << " agreeing " << piece.agreeing;
     }
     const Error error = between(result.T_map_camera, room.T_map_camera);
     EXPECT_LT(error.metres, 0.015) << x;
