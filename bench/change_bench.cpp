@@ -48,7 +48,7 @@ struct Count {
   void print(const char* name) const {
     if (all > 0) {
       const auto [low, high] = interval(good, all);
-      std::printf("| %-9s | %4d of %4d | %5.1f %% (%.1f-%.1f) |\n", name, good, all, 100.0 * good / all, low, high);
+      std::printf("| %-14s | %4d of %4d | %5.1f %% (%.1f-%.1f) |\n", name, good, all, 100.0 * good / all, low, high);
     }
   }
 };
@@ -59,7 +59,8 @@ struct Score {
   Count precision;
   std::vector<double> center_error_m;
   std::vector<double> size_error_m;  ///< of the worst side
-  Count support;                     ///< stated, and within 5 cm of the floor
+  Count support_stated;
+  Count support_true;  ///< of those stated: within 5 cm of the floor
   int unchanged_pairs = 0;
   int false_boxes = 0;  ///< in them
   int scans = 0;
@@ -90,7 +91,10 @@ bool isFound(const bench::BoxM& truth, ChangeKind kind, const std::vector<Change
   }
   score.center_error_m.push_back((best->center_map - truth.center()).norm());
   score.size_error_m.push_back((best->size_m - truth.sizes()).cwiseAbs().maxCoeff());
-  score.support.add(best->support_height_m && std::abs(*best->support_height_m) <= 0.05);
+  score.support_stated.add(best->support_height_m.has_value());
+  if (best->support_height_m) {
+    score.support_true.add(std::abs(*best->support_height_m) <= 0.05);
+  }
   return true;
 }
 
@@ -192,7 +196,8 @@ void report(const Score& score) {
   all.print("recall");
   score.known.print("of known");
   score.precision.print("precision");
-  score.support.print("support");
+  score.support_stated.print("support stated");
+  score.support_true.print("support right");
   std::printf("unchanged pairs: %d, false boxes %d: %.2f a pair\n", score.unchanged_pairs, score.false_boxes,
               static_cast<double>(score.false_boxes) / score.unchanged_pairs);
   std::printf("centre off by %.1f cm (p95 %.1f), worst side by %.1f cm (p95 %.1f)\n", 100.0 * quantile(score.center_error_m, 0.5),

@@ -121,25 +121,36 @@ double medianOf(std::vector<double> values) {
   return *middle;
 }
 
-/// The median height of the first surface below the box, over the columns of its footprint; nothing when under half of them have one.
-std::optional<double> findSupport_m(const Box& box, const SupportVoxels& support, const VoxelLattice& lattice, double reach_m) {
+/// The height of the first surface from a voxel above the point downwards.
+std::optional<double> findSurfaceBelow_m(const Eigen::Vector3d& point_map, const SupportVoxels& support, const VoxelLattice& lattice,
+                                         double reach_m) {
   const double step_m = lattice.resolutionM();
+  const int steps = static_cast<int>(reach_m / step_m) + 1;
+  for (int i = -1; i <= steps; ++i) {
+    const auto key = lattice.findKey((point_map - i * step_m * Eigen::Vector3d::UnitZ()).cast<float>());
+    if (key && support.contains(*key)) {
+      return lattice.center(*key).z();
+    }
+  }
+  return std::nullopt;
+}
+
+/// The median over the columns of the box's footprint; nothing when under half of them have a surface.
+std::optional<double> findSupport_m(const Box& box, const SupportVoxels& support, const VoxelLattice& lattice, double reach_m) {
+  const Eigen::Vector3d size_m = box.max_map - box.min_map;
+  const int columns_x = std::max(1, static_cast<int>(size_m.x() / lattice.resolutionM()));
+  const int columns_y = std::max(1, static_cast<int>(size_m.y() / lattice.resolutionM()));
   std::vector<double> heights_m;
-  int columns = 0;
-  for (double x = box.min_map.x() + 0.5 * step_m; x < box.max_map.x(); x += step_m) {
-    for (double y = box.min_map.y() + 0.5 * step_m; y < box.max_map.y(); y += step_m) {
-      ++columns;
-      for (double z = box.min_map.z() + step_m; z > box.min_map.z() - reach_m - step_m; z -= step_m) {
-        const auto key = lattice.findKey(Eigen::Vector3d(x, y, z).cast<float>());
-        if (key && support.contains(*key)) {
-          heights_m.push_back(lattice.center(*key).z());
-          break;
-        }
+  for (int x = 0; x < columns_x; ++x) {
+    for (int y = 0; y < columns_y; ++y) {
+      const Eigen::Vector3d share((x + 0.5) / columns_x, (y + 0.5) / columns_y, 0.0);
+      if (const auto height_m = findSurfaceBelow_m(box.min_map + share.cwiseProduct(size_m), support, lattice, reach_m)) {
+        heights_m.push_back(*height_m);
       }
     }
   }
-  return 2 * heights_m.size() >= static_cast<std::size_t>(columns) && !heights_m.empty() ? std::optional(medianOf(heights_m))
-                                                                                         : std::nullopt;
+  const bool is_known = 2 * heights_m.size() >= static_cast<std::size_t>(columns_x) * static_cast<std::size_t>(columns_y);
+  return is_known ? std::optional(medianOf(heights_m)) : std::nullopt;
 }
 
 double confidenceOf(const Cluster& cluster, const EvidenceMap& evidence) {

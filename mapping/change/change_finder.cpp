@@ -56,6 +56,7 @@ struct Comparison {
 std::vector<Comparison> compareScans(const std::vector<LocatedScan>& scans, const Reference& reference, const ChangeConfig& config) {
   const VoxelLattice& lattice = reference.space.lattice();
   std::vector<Comparison> comparisons;
+  comparisons.reserve(scans.size());
   for (const LocatedScan& scan : scans) {
     comparisons.emplace_back(ScanView(scan, config, lattice.resolutionM()));
   }

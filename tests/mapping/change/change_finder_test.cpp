@@ -136,6 +136,7 @@ TEST(ChangeFinder, AMovedCameraAndNoiseAreNoChange) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   const auto direction = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized(); };
+  std::size_t boxes_of_overconfident = 0;
   for (int trial = 0; trial < 5; ++trial) {
     std::vector<LocatedScan> scans = scansOf({kTable, kChest});
     for (LocatedScan& scan : scans) {
@@ -150,7 +151,12 @@ TEST(ChangeFinder, AMovedCameraAndNoiseAreNoChange) {
     const ChangeResult result = findChanges(map, scans, fineConfig());
     EXPECT_EQ(result.status, ChangeStatus::kCompared);
     EXPECT_TRUE(result.changes.empty()) << "trial " << trial;
+    for (LocatedScan& scan : scans) {
+      scan.covariance.setZero();
+      boxes_of_overconfident += findChanges(map, {scan}, fineConfig()).changes.size();
+    }
   }
+  EXPECT_GT(boxes_of_overconfident, 0U);  // it is the stated uncertainty that keeps them away
 }
 
 TEST(ChangeFinder, MissingDepthIsNoChange) {
@@ -180,8 +186,18 @@ TEST(ChangeFinder, WhatTheMapNeverSawIsNoChange) {
 TEST(ChangeFinder, WhatMostScansSeeThroughIsNoChange) {
   std::vector<LocatedScan> scans = scansOf({kTable});
   scans[5] = scanOf({kTable, kChest}, scans[5].T_map_camera);  // somebody walked through one image
-  EXPECT_TRUE(findChanges(mapOf({kTable}), {scans[5]}, fineConfig()).changes.size() == 1U);
+  EXPECT_EQ(findChanges(mapOf({kTable}), {scans[5]}, fineConfig()).changes.size(), 1U);
   EXPECT_TRUE(findChanges(mapOf({kTable}), scans, fineConfig()).changes.empty());
+}
+
+TEST(ChangeFinder, WhatMostScansStillSeeIsNotGone) {
+  const SeenSpace map = mapOf({kTable, kChest});
+  std::vector<LocatedScan> scans = scansOf({kTable, kChest});
+  scans[5] = scanOf({kTable}, scans[5].T_map_camera);
+  const ChangeResult alone = findChanges(map, {scans[5]}, fineConfig());
+  ASSERT_EQ(alone.changes.size(), 1U);
+  EXPECT_EQ(alone.changes[0].kind, ChangeKind::kGone);
+  EXPECT_TRUE(findChanges(map, scans, fineConfig()).changes.empty());
 }
 
 TEST(ChangeFinder, SpecksAndSliversAreNoChange) {
