@@ -98,23 +98,22 @@ bool isFound(const bench::BoxM& truth, ChangeKind kind, const std::vector<Change
   return true;
 }
 
-/// Of the box's voxels: what the map knows to be free.
+/// Of a grid of points in the box: what the map knows to be free.
 double freeShare(const bench::BoxM& box, const mapping::SeenSpace& map) {
+  constexpr int kSide = 12;
   Count free;
-  for (double x = box.min().x(); x < box.max().x(); x += 0.05) {
-    for (double y = box.min().y(); y < box.max().y(); y += 0.05) {
-      for (double z = box.min().z(); z < box.max().z(); z += 0.05) {
-        const auto key = map.lattice().findKey(Eigen::Vector3d(x, y, z).cast<float>());
-        free.add(key && map.state(*key) == mapping::SpaceState::kFree);
-      }
-    }
+  for (int i = 0; i < kSide * kSide * kSide; ++i) {
+    const Eigen::Vector3d share = (Eigen::Vector3d(i % kSide, i / kSide % kSide, i / (kSide * kSide)).array() + 0.5) / kSide;
+    const Eigen::Vector3d point_map = box.min() + share.cwiseProduct(box.sizes());
+    const auto key = map.lattice().findKey(point_map.cast<float>());
+    free.add(key && map.state(*key) == mapping::SpaceState::kFree);
   }
   return static_cast<double>(free.good) / free.all;
 }
 
 void judgeChanged(const bench::ChangedRoom& changed, const mapping::SeenSpace& map, const std::vector<Change>& changes,
                   const Options& options, Score& score) {
-  for (const bench::Event& event : changed.events) {
+  for (const bench::RoomEvent& event : changed.events) {
     const bool is_gone_found = event.kind == bench::EventKind::kAdded || isFound(event.before, ChangeKind::kGone, changes, score);
     const bool is_new_found = event.kind == bench::EventKind::kRemoved || isFound(event.after, ChangeKind::kNew, changes, score);
     score.recall[static_cast<std::size_t>(event.kind)].add(is_gone_found && is_new_found);
@@ -129,7 +128,7 @@ void judgeChanged(const bench::ChangedRoom& changed, const mapping::SeenSpace& m
     }
   }
   for (const Change& change : changes) {
-    const bool is_true = std::any_of(changed.events.begin(), changed.events.end(), [&](const bench::Event& event) {
+    const bool is_true = std::any_of(changed.events.begin(), changed.events.end(), [&](const bench::RoomEvent& event) {
       const bench::BoxM& truth = change.kind == ChangeKind::kNew ? event.after : event.before;
       return !truth.isEmpty() && isPartOf(change, truth);
     });
@@ -158,8 +157,7 @@ mapping::ChangeResult compare(const mapping::SeenSpace& map, const std::vector<m
 void runRoom(int number, const Options& options, Score& score) {
   std::mt19937_64 random(options.seed * 1'000'003 + static_cast<std::uint64_t>(number));
   const bench::Room room = bench::randomRoom(6, random);
-  mapping::OccupancyConfig occupancy;
-  mapping::SeenSpace map(occupancy, {}, options.threads);
+  mapping::SeenSpace map({}, {}, options.threads);
   for (const mapping::LocatedScan& scan : bench::drive(room, {36, 48}, {0.005, 0.2 * std::numbers::pi / 180.0}, random)) {
     camera::RgbdFrame frame;
     frame.depth_m = scan.depth_m;

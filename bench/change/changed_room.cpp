@@ -128,6 +128,7 @@ mapping::LocatedScan record(const render::Scene& scene, const Eigen::Isometry3d&
 
 Room randomRoom(int pieces, std::mt19937_64& random) {
   Room room;
+  room.furniture.reserve(static_cast<std::size_t>(pieces));
   for (int i = 0; i < pieces; ++i) {
     room.furniture.push_back(place(randomSize(random), room.furniture, random));
   }
@@ -141,7 +142,7 @@ ChangedRoom changeRoom(const Room& room, int events, std::mt19937_64& random) {
   std::vector<BoxM> taken = room.furniture;  // new pieces keep clear of what stood there, too: hidden inside of it nothing is known
   std::vector<BoxM> placed;
   for (int i = 0; i < events; ++i) {
-    Event event{static_cast<EventKind>(random() % 3), BoxM(), BoxM()};
+    RoomEvent event{static_cast<EventKind>(random() % 3), BoxM(), BoxM()};
     Eigen::Vector3d size_m = randomSize(random);
     if (event.kind != EventKind::kAdded) {
       event.before = untouched.back();

@@ -21,7 +21,7 @@ struct Room {
 enum class EventKind { kAdded, kRemoved, kMoved };
 
 /// Something done to a piece; `before` or `after` is empty where there is none.
-struct Event {
+struct RoomEvent {
   EventKind kind = EventKind::kAdded;
   BoxM before;
   BoxM after;
@@ -29,7 +29,7 @@ struct Event {
 
 struct ChangedRoom {
   Room room;
-  std::vector<Event> events;
+  std::vector<RoomEvent> events;
 };
 
 [[nodiscard]] Room randomRoom(int pieces, std::mt19937_64& random);
