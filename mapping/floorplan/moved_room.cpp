@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCell_m = 0.05;
 constexpr int kReach = 20;           ///< cells each way
-constexpr double kLeast_m = 0.2;     ///< a shorter way is a tape's error
+constexpr double kLeast_m = 0.4;     ///< a shorter way may be furniture that stands along a wall
 constexpr double kShortest_m = 3.0;  ///< less wall is no room
 constexpr int kDirections = 8;
 

@@ -17,7 +17,7 @@ struct MovedRoom {
 };
 
 /// Slides each room of the plan by up to a metre each way over the walls that were seen, and tells of the one that gains most by it, if it
-/// slides by 0.2 m or more. A room that is drawn where it is gains nothing.
+/// slides by 0.4 m or more. A room that is drawn where it is gains nothing.
 [[nodiscard]] MovedRoom findMovedRoom(const WallSketch& sketch, const FloorPlan& plan, const Eigen::Isometry2d& T_plan_level);
 
 }  // namespace oikos::mapping

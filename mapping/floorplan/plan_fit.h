@@ -25,7 +25,7 @@ struct PlanFitConfig {
   double max_missing_m = 1.5;         ///< of drawn walls that nothing hides, but that were not seen, beyond a doorway's width each
   double max_missing_share = 0.03;    ///< of the plan's walls that were seen; the greater of both limits counts
   double max_floor_outside_m2 = 0.5;  ///< of floor where the plan has no room
-  double max_beyond_share = 0.04;     ///< of the upright surface seen: beyond the plan's outermost walls
+  double max_beyond_share = 0.08;     ///< of the upright surface seen: beyond the plan's outermost walls
   double max_rms_m = 0.04;            ///< of walls from their lines
   double max_moved_share = 0.12;      ///< of a room's walls: so much more seen beside their place, and the room is drawn wrongly
   double scale_gain = 0.08;           ///< so much more of the upright surface on a plan of another size, and the size is wrong
