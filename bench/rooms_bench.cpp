@@ -122,7 +122,8 @@ Options parse(CLI::App& app, int argc, char** argv) {
   Options options;
   app.add_option("--scene", options.scene, "of the home, without .toml");
   app.add_option("--sensor", options.sensors, "kinect1, kinect2 or ideal")->check(CLI::IsMember({"kinect1", "kinect2", "ideal"}));
-  app.add_option("--belief-mm", options.beliefs_mm, "error of the camera's stated mount")->check(CLI::Range(0.0, 50.0));
+  app.add_option("--belief-mm", options.beliefs_mm, "deviation of believed lengths; the rest of [belief] goes along")
+      ->check(CLI::Range(0.0, 50.0));
   app.add_option("--threads", options.command.threads, "of oikos simulate and oikos map")->check(CLI::NonNegativeNumber);
   app.add_option("--oikos", options.command.oikos, "the program to run")->check(CLI::ExistingFile);
   app.add_option("--home", options.home, "the home with the scene")->check(CLI::ExistingDirectory);

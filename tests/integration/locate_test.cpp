@@ -119,7 +119,7 @@ TEST(Locate, EveryFrameOfAMappedDriveIsFoundInItsMap) {
   const TemporaryFolder folder;
   const auto recording = findShortRecording(folder, 40);
   if (!recording) {
-    GTEST_SKIP() << "needs OIKOS_DATA with the recording kitchen";
+    GTEST_SKIP() << "SKIPPED: locating in a map of the real kitchen was NOT tested; set OIKOS_DATA to the folder that holds the recording";
   }
   const std::string home = (folder.path() / "home").string();
   ASSERT_EQ(runOikos({"map", recording->string(), "--out", home}).exit_code, 0);

@@ -21,7 +21,7 @@ class ReadOnlyHistoryTest : public testing::Test {
  protected:
   void SetUp() override {
     if (::geteuid() != 0) {
-      GTEST_SKIP() << "needs root, to become another user";
+      GTEST_SKIP() << "SKIPPED: a history that may not be written was NOT tested: only root can become another user";
     }
     GTEST_FLAG_SET(death_test_style, "fast");
     using std::filesystem::perms;
