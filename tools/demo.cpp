@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -50,11 +52,29 @@ struct DemoOptions {
   fs::path out = "oikos-demo";
 };
 
+/// Throws where it is no home, and where the scene is none of its scenes, which it says.
+void checkHome(const DemoOptions& options) {
+  if (!fs::exists(options.home / "home.xml")) {
+    throw base::Error(base::ErrorCode::kUsage, "is no home: it has no home.xml; give the demo's with --home", options.home.string());
+  }
+  const fs::path scenes = options.home / "scenes";
+  if (fs::exists(scenes / (options.scene + ".toml"))) {
+    return;
+  }
+  std::set<std::string> known;
+  for (const auto& entry : fs::exists(scenes) ? fs::directory_iterator(scenes) : fs::directory_iterator()) {
+    known.insert(entry.path().stem().string());
+  }
+  std::string names;
+  for (const std::string& name : known) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  throw base::Error(base::ErrorCode::kUsage, "has no scene '" + options.scene + "'; it has: " + (names.empty() ? "none" : names),
+                    options.home.string());
+}
+
 /// Home and scenes, to be mapped into and asked: the original stays as it is.
 void copyHome(const fs::path& from, const fs::path& to) {
-  if (!fs::exists(from / "home.xml")) {
-    throw base::Error(base::ErrorCode::kUsage, "is no home: it has no home.xml; give the demo's with --home", from.string());
-  }
   fs::create_directories(to);
   for (const char* name : {"home.xml", "scenes", "models"}) {
     if (fs::exists(from / name)) {
@@ -121,6 +141,7 @@ std::int64_t timeOf(const recording::Recording& recording) {
 ExitCode runDemo(const DemoOptions& options, const Session& session) {
   const fs::path home = options.out / "home";
   const fs::path drive = options.out / "drive";
+  checkHome(options);
   copyHome(options.home, home);
   simulateDrive(home / "scenes" / (options.scene + ".toml"), drive, session);
   const auto recording = recording::openRecording(drive, {});
