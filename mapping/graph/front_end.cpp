@@ -92,7 +92,9 @@ bool FrontEnd::wheelsContradict(const Eigen::Isometry3d& T_world_camera) const {
 
 /// A frame without enough to follow (a covered lens, the dark) is no place to begin at.
 bool FrontEnd::startSubmap(const Current& current) {
-  if (static_cast<int>(detectCorners(current.frame, {}, config_.corners).size()) < config_.follower.min_inliers) {
+  CornerDetectorConfig strong = config_.corners;
+  strong.enough = 0;  // weak corners may be the dark's noise
+  if (static_cast<int>(detectCorners(current.frame, {}, strong).size()) < config_.follower.min_inliers) {
     return false;
   }
   lost_in_a_row_ = 0;

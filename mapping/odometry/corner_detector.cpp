@@ -141,32 +141,80 @@ cv::Mat cornerResponse(const cv::Mat& gray) {
   return response;
 }
 
+struct FoundCorner {
+  float response;
+  Landmark landmark;
+};
+
+/// Looks for landmarks in the cells that hold none.
+class CellSearch {
+ public:
+  CellSearch(const camera::RgbdFrame& frame, const std::vector<Eigen::Vector2d>& occupied, const CornerDetectorConfig& config)
+      : frame_(frame),
+        config_(config),
+        cell_px_(std::max(12, config.cell_px * frame.gray.cols / 640)),
+        response_(cornerResponse(frame.gray)) {
+    columns_ = (frame.gray.cols + cell_px_ - 1) / cell_px_;
+    const int rows = (frame.gray.rows + cell_px_ - 1) / cell_px_;
+    taken_.resize(static_cast<std::size_t>(columns_ * rows), 0);
+    for (const Eigen::Vector2d& px : occupied) {
+      const int column = std::clamp(static_cast<int>(px.x()) / cell_px_, 0, columns_ - 1);
+      const int row = std::clamp(static_cast<int>(px.y()) / cell_px_, 0, rows - 1);
+      taken_[static_cast<std::size_t>(row * columns_ + column)] = 1;
+    }
+  }
+
+  /// The strongest corner of each empty cell that lies on a known surface, cell by cell; their cells are empty no more.
+  std::vector<FoundCorner> find(double min_response) {
+    std::vector<FoundCorner> found;
+    for (std::size_t cell = 0; cell < taken_.size(); ++cell) {
+      if (taken_[cell] == 0) {
+        if (auto corner = findIn(static_cast<int>(cell), min_response)) {
+          taken_[cell] = 1;
+          found.push_back(*corner);
+        }
+      }
+    }
+    return found;
+  }
+
+ private:
+  [[nodiscard]] std::optional<FoundCorner> findIn(int cell, double min_response) const {
+    const cv::Rect area(cell % columns_ * cell_px_, cell / columns_ * cell_px_, cell_px_, cell_px_);
+    for (const Corner& corner : strongest(response_, area, min_response)) {
+      if (const auto plane = fitSurface(frame_.depth_m, {corner.x, corner.y}, config_)) {
+        return FoundCorner{corner.response,
+                           {-1, {corner.x, corner.y}, plane->inverse_depth, plane->inverse_depth, plane->sigma, plane->gradient}};
+      }
+    }
+    return std::nullopt;
+  }
+
+  const camera::RgbdFrame& frame_;
+  const CornerDetectorConfig& config_;
+  int cell_px_;
+  int columns_ = 0;
+  cv::Mat response_;
+  std::vector<char> taken_;
+};
+
 }  // namespace
 
 std::vector<Landmark> detectCorners(const camera::RgbdFrame& frame, const std::vector<Eigen::Vector2d>& occupied,
                                     const CornerDetectorConfig& config) {
-  const int cell_px = std::max(12, config.cell_px * frame.gray.cols / 640);
-  const int columns = (frame.gray.cols + cell_px - 1) / cell_px;
-  const int rows = (frame.gray.rows + cell_px - 1) / cell_px;
-  std::vector<char> taken(static_cast<std::size_t>(columns * rows), 0);
-  for (const Eigen::Vector2d& px : occupied) {
-    const int column = std::clamp(static_cast<int>(px.x()) / cell_px, 0, columns - 1);
-    const int row = std::clamp(static_cast<int>(px.y()) / cell_px, 0, rows - 1);
-    taken[static_cast<std::size_t>(row * columns + column)] = 1;
+  CellSearch search(frame, occupied, config);
+  std::vector<FoundCorner> found = search.find(config.min_response);
+  const auto enough = static_cast<std::size_t>(std::max(0, config.enough));
+  if (occupied.size() + found.size() < enough) {
+    std::vector<FoundCorner> weak = search.find(config.min_weak_response);
+    std::stable_sort(weak.begin(), weak.end(), [](const FoundCorner& a, const FoundCorner& b) { return a.response > b.response; });
+    weak.resize(std::min(weak.size(), enough - occupied.size() - found.size()));
+    found.insert(found.end(), weak.begin(), weak.end());
   }
-  const cv::Mat response = cornerResponse(frame.gray);
   std::vector<Landmark> landmarks;
-  for (int cell = 0; cell < columns * rows; ++cell) {
-    if (taken[static_cast<std::size_t>(cell)] != 0) {
-      continue;
-    }
-    const cv::Rect area(cell % columns * cell_px, cell / columns * cell_px, cell_px, cell_px);
-    for (const Corner& corner : strongest(response, area, config.min_response)) {
-      if (const auto plane = fitSurface(frame.depth_m, {corner.x, corner.y}, config)) {
-        landmarks.push_back({-1, {corner.x, corner.y}, plane->inverse_depth, plane->inverse_depth, plane->sigma, plane->gradient});
-        break;
-      }
-    }
+  landmarks.reserve(found.size());
+  for (const FoundCorner& corner : found) {
+    landmarks.push_back(corner.landmark);
   }
   return landmarks;
 }

@@ -53,6 +53,8 @@ std::vector<std::string> CornerDetectorConfig::validate() const {
   return base::ConfigRules()
       .between("cell_px", cell_px, 1, 1000)
       .greater("min_response", min_response, 0.0)
+      .atLeast("enough", enough, 0)
+      .greater("min_weak_response", min_weak_response, 0.0)
       .greater("max_depth_m", max_depth_m, 0.0)
       .between("depth_window_px", depth_window_px, 1, 50)
       .greater("max_plane_residual", max_plane_residual, 0.0)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -106,6 +107,50 @@ TEST(CornerDetector, PlainImagesAndEdgesHaveNone) {
   cv::Mat edge(kSize, CV_8UC1, cv::Scalar(40));
   edge(cv::Rect(320, 0, 320, 480)).setTo(200);
   EXPECT_TRUE(detectCorners(frameWith(edge, flat), {}, kConfig).empty());
+}
+
+/// Contrast of the texture, as a share.
+cv::Mat faded(double share) {
+  cv::Mat faint;
+  texture().convertTo(faint, CV_8UC1, share, 127.0 * (1.0 - share));
+  return faint;
+}
+
+TEST(CornerDetector, AFaintWallStillHasEnough) {
+  const auto flat = [](int, int) { return 0.8; };
+  CornerDetectorConfig strong_only = kConfig;
+  strong_only.enough = 0;
+  const double share = 0.2;
+  ASSERT_LT(detectCorners(frameWith(faded(share), flat), {}, strong_only).size(), 60U);
+  EXPECT_EQ(detectCorners(frameWith(faded(share), flat), {}, kConfig).size(), static_cast<std::size_t>(kConfig.enough));
+}
+
+TEST(CornerDetector, FaintCornersOnlyFillUpWhatStrongOnesLeave) {
+  const auto flat = [](int, int) { return 0.8; };
+  cv::Mat half = faded(0.2);
+  texture()(cv::Rect(0, 0, 200, 480)).copyTo(half(cv::Rect(0, 0, 200, 480)));
+  CornerDetectorConfig strong_only = kConfig;
+  strong_only.enough = 0;
+  const auto strong = detectCorners(frameWith(half, flat), {}, strong_only);
+  const auto all = detectCorners(frameWith(half, flat), {}, kConfig);
+  ASSERT_GT(strong.size(), 80U);
+  ASSERT_EQ(all.size(), static_cast<std::size_t>(kConfig.enough));
+  for (std::size_t i = 0; i < strong.size(); ++i) {
+    EXPECT_EQ(all[i].pixel, strong[i].pixel);
+  }
+  const auto as_many_seen = detectCorners(frameWith(half, flat), std::vector<Eigen::Vector2d>(200, {20.0, 20.0}), kConfig);
+  EXPECT_LE(as_many_seen.size(), strong.size());
+}
+
+TEST(CornerDetector, TheNoiseOfADimPictureIsNoTexture) {
+  cv::RNG random(11);
+  cv::Mat gray(kSize, CV_8UC1);
+  for (int v = 0; v < gray.rows; ++v) {
+    for (int u = 0; u < gray.cols; ++u) {
+      gray.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(30.0 + random.gaussian(1.5));
+    }
+  }
+  EXPECT_TRUE(detectCorners(frameWith(gray, [](int, int) { return 2.0; }), {}, kConfig).empty());
 }
 
 TEST(CornerDetector, KeepsOffTheBorder) {

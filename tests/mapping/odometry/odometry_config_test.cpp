@@ -60,6 +60,8 @@ TEST(OdometryConfig, CornerDetector) {
   test::checkConfigRules<CornerDetectorConfig>({{"cell_px", "0", "must be from 1 to 1000"},
                                                 {"cell_px", "1001", "must be from 1 to 1000"},
                                                 {"min_response", "0", "must be > 0"},
+                                                {"enough", "-1", "must be >= 0"},
+                                                {"min_weak_response", "0", "must be > 0"},
                                                 {"max_depth_m", "0", "must be > 0"},
                                                 {"max_depth_m", "nan", "must be > 0"},
                                                 {"depth_window_px", "0", "must be from 1 to 50"},
