@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/routes/drive_options.h"
 #include "bench/routes/route_run.h"
 #include "core/geometry/ply.h"
 #include "core/metrics/error_statistics.h"
@@ -35,10 +36,7 @@ using metrics::RoomLength;
 
 struct Options {
   std::string scene = "drive";
-  std::vector<std::string> sensors{"kinect1"};
-  std::vector<double> beliefs_mm{0.0, 5.0};
-  bench::MapCommand command{OIKOS_BUILT_BINARY, 0, {}};
-  fs::path home = OIKOS_DEMO_HOME;
+  bench::DriveOptions drives{.sensors = {"kinect1"}, .command = {OIKOS_BUILT_BINARY, 0, {}}, .home = OIKOS_DEMO_HOME};
   fs::path recording;
   fs::path mapped;
 };
@@ -107,10 +105,10 @@ void run(const Options& options) {
     return;
   }
   const test::TemporaryFolder scratch;
-  for (const double belief_mm : options.beliefs_mm) {
-    for (const std::string& sensor : options.sensors) {
+  for (const double belief_mm : options.drives.beliefs_mm) {
+    for (const std::string& sensor : options.drives.sensors) {
       const bench::RouteCase drive{{options.scene, 0.0}, *base::findEnum<DepthSensorKind>(sensor), belief_mm * 1e-3};
-      const bench::RouteScore score = runRoute(drive, options.command, options.home, scratch.path());
+      const bench::RouteScore score = runRoute(drive, options.drives.command, options.drives.home, scratch.path());
       std::printf("\n%s, %s, belief %.0f mm: %d frames, %d lost, path %.2f m, ATE RMSE %.4f m\n\n", options.scene.c_str(), sensor.c_str(),
                   belief_mm, score.frames, score.lost, score.path_m, score.ate_m);
       measure(scratch.path() / "recording", scratch.path() / "mapped");
@@ -121,12 +119,7 @@ void run(const Options& options) {
 Options parse(CLI::App& app, int argc, char** argv) {
   Options options;
   app.add_option("--scene", options.scene, "of the home, without .toml");
-  app.add_option("--sensor", options.sensors, "kinect1, kinect2 or ideal")->check(CLI::IsMember({"kinect1", "kinect2", "ideal"}));
-  app.add_option("--belief-mm", options.beliefs_mm, "deviation of believed lengths; the rest of [belief] goes along")
-      ->check(CLI::Range(0.0, 50.0));
-  app.add_option("--threads", options.command.threads, "of oikos simulate and oikos map")->check(CLI::NonNegativeNumber);
-  app.add_option("--oikos", options.command.oikos, "the program to run")->check(CLI::ExistingFile);
-  app.add_option("--home", options.home, "the home with the scene")->check(CLI::ExistingDirectory);
+  bench::addDriveOptions(app, options.drives);
   CLI::Option* recording = app.add_option("--recording", options.recording, "a simulated one that is mapped already");
   CLI::Option* mapped = app.add_option("--mapped", options.mapped, "the home that it was mapped into");
   recording->check(CLI::ExistingDirectory)->needs(mapped);

@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "bench/routes/drive_options.h"
 #include "bench/routes/route_run.h"
 #include "bench/routes/route_table.h"
 #include "tests/support/temporary_folder.h"
@@ -29,16 +30,13 @@ using oikos::camera::DepthSensorKind;
 
 struct Options {
   std::vector<std::string> routes;
-  std::vector<std::string> sensors{"kinect1", "kinect2"};
-  std::vector<double> beliefs_mm{0.0, 5.0};
-  MapCommand command{OIKOS_BUILT_BINARY, 0, {}};
-  std::filesystem::path home = OIKOS_DEMO_HOME;
+  DriveOptions drives{.command = {OIKOS_BUILT_BINARY, 0, {}}, .home = OIKOS_DEMO_HOME};
 };
 
 std::vector<RouteCase> casesOf(const Options& options) {
   std::vector<RouteCase> cases;
-  for (const double belief_mm : options.beliefs_mm) {
-    for (const std::string& sensor : options.sensors) {
+  for (const double belief_mm : options.drives.beliefs_mm) {
+    for (const std::string& sensor : options.drives.sensors) {
       for (const Route& route : paperRoutes()) {
         if (options.routes.empty() || std::ranges::count(options.routes, route.name) > 0) {
           cases.push_back({route, *oikos::base::findEnum<DepthSensorKind>(sensor), belief_mm * 1e-3});
@@ -57,7 +55,7 @@ void run(const Options& options) {
   std::vector<RouteScore> scores;
   printRouteHeader();
   for (const RouteCase& route_case : casesOf(options)) {
-    scores.push_back(runRoute(route_case, options.command, options.home, scratch.path()));
+    scores.push_back(runRoute(route_case, options.drives.command, options.drives.home, scratch.path()));
     printRoute(scores.back());
   }
   printRouteBars(scores);
@@ -70,12 +68,7 @@ Options parse(CLI::App& app, int argc, char** argv) {
     names.push_back(route.name);
   }
   app.add_option("--route", options.routes, "which to drive; default: all")->check(CLI::IsMember(names));
-  app.add_option("--sensor", options.sensors, "kinect1, kinect2 or ideal")->check(CLI::IsMember({"kinect1", "kinect2", "ideal"}));
-  app.add_option("--belief-mm", options.beliefs_mm, "deviation of believed lengths; the rest of [belief] goes along")
-      ->check(CLI::Range(0.0, 50.0));
-  app.add_option("--threads", options.command.threads, "of oikos simulate and oikos map")->check(CLI::NonNegativeNumber);
-  app.add_option("--oikos", options.command.oikos, "the program to run")->check(CLI::ExistingFile);
-  app.add_option("--home", options.home, "the home with the routes as scenes")->check(CLI::ExistingDirectory);
+  addDriveOptions(app, options.drives);
   app.parse(argc, argv);
   return options;
 }
