@@ -81,7 +81,7 @@ bool isPartOf(const Change& change, const bench::BoxM& truth) {
 bool isFound(const bench::BoxM& truth, ChangeKind kind, const std::vector<Change>& changes, Score& score) {
   const Change* best = nullptr;
   for (const Change& change : changes) {
-    const bool is_larger = best == nullptr || change.voxels > best->voxels;
+    const bool is_larger = best == nullptr || change.voxels.size() > best->voxels.size();
     if (change.kind == kind && isPartOf(change, truth) && is_larger) {
       best = &change;
     }
@@ -135,8 +135,8 @@ void judgeChanged(const bench::ChangedRoom& changed, const mapping::SeenSpace& m
     score.precision.add(is_true);
     if (options.verbose && !is_true) {
       const Eigen::Vector3d& c = change.center_map;
-      std::printf("  false %s at %.2f %.2f %.2f, %.2f x %.2f x %.2f, %d voxels\n", std::string(base::toString(change.kind)).c_str(), c.x(),
-                  c.y(), c.z(), change.size_m.x(), change.size_m.y(), change.size_m.z(), change.voxels);
+      std::printf("  false %s at %.2f %.2f %.2f, %.2f x %.2f x %.2f, %zu voxels\n", std::string(base::toString(change.kind)).c_str(), c.x(),
+                  c.y(), c.z(), change.size_m.x(), change.size_m.y(), change.size_m.z(), change.voxels.size());
     }
   }
 }

@@ -60,6 +60,16 @@ void addFrames(const MapFacts& facts, MapReport& report) {
   }
 }
 
+/// `position` of this drive's frames; earlier ones are their own.
+LoopFacts loopBetween(const KeyframeGraph& graph, int old_node, int frame, const std::map<int, int>& position) {
+  LoopFacts loop;
+  loop.from_frame = position.at(frame);
+  loop.is_to_earlier_drive = old_node < graph.settled;
+  const int old_frame = graph.nodes[static_cast<std::size_t>(old_node)].frame;
+  loop.to_frame = loop.is_to_earlier_drive ? old_frame : position.at(old_frame);
+  return loop;
+}
+
 /// Accepted attempts are edges, in the same order; the others failed by geometry.
 void addLoops(const MapFacts& facts, MapReport& report) {
   std::map<int, int> position;
@@ -72,9 +82,7 @@ void addLoops(const MapFacts& facts, MapReport& report) {
     if (edge.kind != EdgeKind::kLoop) {
       continue;
     }
-    LoopFacts loop;
-    loop.from_frame = position.at(graph.nodes[static_cast<std::size_t>(edge.to)].frame);
-    loop.to_frame = position.at(graph.nodes[static_cast<std::size_t>(edge.from)].frame);
+    LoopFacts loop = loopBetween(graph, edge.from, graph.nodes[static_cast<std::size_t>(edge.to)].frame, position);
     loop.inliers = edge.inliers;
     loop.residual_px = edge.rms_px;
     constexpr double kDownWeighted = 0.25;
@@ -85,8 +93,9 @@ void addLoops(const MapFacts& facts, MapReport& report) {
   }
   for (const LoopAttempt& attempt : facts.drive.loop_attempts) {
     if (attempt.verdict == LoopCheck::kGeometryDisagrees || attempt.verdict == LoopCheck::kWheelsDisagree) {
-      report.loops.push_back({position.at(attempt.frame), position.at(graph.nodes[static_cast<std::size_t>(attempt.from)].frame),
-                              attempt.inliers, attempt.rms_px, LoopVerdict::kRejectedByGeometry});
+      LoopFacts& loop = report.loops.emplace_back(loopBetween(graph, attempt.from, attempt.frame, position));
+      loop.inliers = attempt.inliers;
+      loop.residual_px = attempt.rms_px;
     }
   }
 }

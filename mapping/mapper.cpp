@@ -2,10 +2,9 @@
 #include "mapping/mapper.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
-#include <mutex>
+#include <memory>
 
 #include "core/base/atomic_file.h"
 #include "core/base/config.h"
@@ -15,34 +14,16 @@
 #include "mapping/floorplan/wall_views.h"
 #include "mapping/graph/frame_poses.h"
 #include "mapping/graph/g2o_file.h"
-#include "mapping/graph/keyframe_store.h"
+#include "mapping/keyframe_saver.h"
+#include "mapping/map_extension.h"
 #include "mapping/map_report.h"
 #include "mapping/odometry_priors.h"
 #include "mapping/report/timing.h"
+#include "mapping/stage_clock.h"
 
 namespace oikos::mapping {
 
 namespace {
-
-class StageClock {
- public:
-  void begin(const std::string& stage) {
-    end();
-    stages_.push_back({stage, 0.0});
-    begin_ = Clock::now();
-  }
-  void end() {
-    if (!stages_.empty() && stages_.back().wall_s == 0.0) {
-      stages_.back().wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
-    }
-  }
-  [[nodiscard]] const std::vector<StageTime>& stages() const { return stages_; }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::vector<StageTime> stages_;
-  Clock::time_point begin_;
-};
 
 /// z and tilt from the floor; x, y and heading from the base at the first frame, where the mount is known.
 Eigen::Isometry3d mapFrame(const FloorResult& floor, const Eigen::Isometry3d& T_world_first_camera,
@@ -62,6 +43,26 @@ Eigen::Isometry3d mapFrame(const FloorResult& floor, const Eigen::Isometry3d& T_
   return T_floor_map.inverse() * floor.T_map_world;
 }
 
+/// Null without a map to extend.
+std::unique_ptr<const EarlierMap> openEarlier(const recording::Recording& recording, const MapConfig& config, const MapRun& run) {
+  if (run.extended.empty()) {
+    return nullptr;
+  }
+  if (config.kind != FrontEndKind::kLandmarks) {
+    throw base::Error(base::ErrorCode::kUsage, "kind = pairwise: a map is extended by its landmarks, which this front end has none of");
+  }
+  auto earlier = std::make_unique<const EarlierMap>(run.extended, SavedMapConfig{config.front_end.pyramid_levels, config.images_in_memory});
+  requireSameCamera(earlier->keyframes().camera(), recording.camera(), run.extended / "keyframes.sqlite");
+  const auto saved = base::loadConfig<MapConfig>({run.extended / "config.toml", {}});
+  if (saved.front_end.features.type != config.front_end.features.type) {
+    throw base::Error(base::ErrorCode::kUsage,
+                      "the map's features are " + std::string(base::toString(saved.front_end.features.type)) + ", not " +
+                          std::string(base::toString(config.front_end.features.type)) + ": places are not recognised by others",
+                      (run.extended / "config.toml").string());
+  }
+  return earlier;
+}
+
 class Mapper {
  public:
   Mapper(const recording::Recording& recording, const MapConfig& config, const MapRun& run, const std::filesystem::path& folder)
@@ -70,7 +71,9 @@ class Mapper {
         run_(run),
         folder_(folder),
         T_base_camera_(run.T_base_camera ? run.T_base_camera : recording.T_base_camera()),
-        images_([this](int frame) { return recording_.read(frame, recording::Channels::kGray).gray; }, config.front_end.pyramid_levels,
+        earlier_(openEarlier(recording, config, run)),
+        frames_(recording, earlier_.get()),
+        images_([this](int frame) { return frames_.read(frame, recording::Channels::kGray).gray; }, config.front_end.pyramid_levels,
                 config.images_in_memory) {}
 
   MapResult build() {
@@ -78,8 +81,13 @@ class Mapper {
     track();
     clock_.begin("optimisation");
     optimise();
-    clock_.begin("floor");
-    placeInMap();
+    if (earlier_ && !MapExtension::isPlaced(drive_, optimised_)) {
+      MapResult result = summary();
+      result.is_placed = false;
+      return result;
+    }
+    clock_.begin(earlier_ ? "changes" : "floor");
+    earlier_ ? extend() : placeInMap();
     clock_.begin("fusion");
     fuse();
     clock_.begin("writing");
@@ -90,13 +98,14 @@ class Mapper {
  private:
   void track() {
     const auto seed = static_cast<std::uint64_t>(run_.seed);
-    const std::optional<recording::Trajectory> T_odom_base = recording_.findOdometry();
+    const std::optional<recording::Trajectory> T_odom_base = frames_.findOdometry();
     odometry_without_mount_ = T_odom_base && !T_base_camera_;
     odometry_ = WheelOdometry(T_odom_base, T_base_camera_);
     if (config_.kind == FrontEndKind::kPairwise) {
       feed(PairwiseFrontEnd(recording_.camera(), config_.pairwise, config_.front_end.features, config_.front_end.motion, seed));
     } else {
-      feed(FrontEnd({recording_.camera(), odometry_, images_}, config_.front_end, config_.back_end.loops, seed));
+      feed(FrontEnd({recording_.camera(), odometry_, images_}, config_.front_end, config_.back_end.loops, seed,
+                    earlier_ ? earlier_->start() : FrontEndResult()));
     }
     if (drive_.frames.empty()) {
       throw base::Error(base::ErrorCode::kInput, "no frame could be read");
@@ -108,7 +117,7 @@ class Mapper {
     const int lookahead_threads = std::max(1, run_.threads - 1);
     recording::FrameStream stream(recording_, {.capacity = 4 + lookahead_threads, .decode_threads = lookahead_threads});
     while (const auto frame = stream.next()) {
-      front_end.add(*frame);
+      front_end.add(frames_.renumbered(*frame));
       base::reportProgress(run_.progress,
                            {"tracking", stream.statistics().read + stream.statistics().unreadable, stream.statistics().listed});
     }
@@ -120,7 +129,7 @@ class Mapper {
     const BackEndTools tools{recording_.camera(),
                              config_.front_end.follower,
                              images_,
-                             [this](int f) { return recording_.read(f, recording::Channels::kGray); },
+                             [this](int f) { return frames_.read(f, recording::Channels::kGray); },
                              config_.front_end.pyramid_levels,
                              run_.threads,
                              run_.progress};
@@ -145,10 +154,9 @@ class Mapper {
   }
 
   [[nodiscard]] FusionInput fusionInput() const {
-    return {
-        recording_.camera(),
-        [this](int frame, bool color) { return recording_.read(frame, color ? recording::Channels::kColor : recording::Channels::kGray); },
-        run_.threads, run_.progress};
+    return {recording_.camera(),
+            [this](int frame, bool color) { return frames_.read(frame, color ? recording::Channels::kColor : recording::Channels::kGray); },
+            run_.threads, run_.progress};
   }
 
   /// Keyframes of the sub-map that the drive began with (what no loop joined to it has no place in its map), or all its frames.
@@ -174,6 +182,9 @@ class Mapper {
 
   /// A node of the sub-map with most frames; the first of equals.
   [[nodiscard]] int mainSubmapNode() const {
+    if (earlier_) {
+      return 0;  // of the map that is extended
+    }
     std::map<int, int> frames;
     for (const TrackedFrame& frame : drive_.frames) {
       ++frames[drive_.graph.nodes[static_cast<std::size_t>(frame.reference)].submap];
@@ -192,6 +203,19 @@ class Mapper {
     if (run_.plan) {
       layOntoPlan(*run_.plan);
     }
+  }
+
+  /// The earlier map's frame stands; what the drive has seen to be otherwise is forgotten, and kept as it is now.
+  void extend() {
+    floor_.status = earlier_->isFloorFound() ? FloorStatus::kFound : FloorStatus::kNoFloor;
+    floor_.camera_height_m = optimised_.T_world_frame.front().translation().z();
+    extension_.emplace(*earlier_);
+    extension_->revise(drive_, optimised_, {fusionInput(), config_.volume.occupancy, config_.front_end, config_.revision});
+    std::vector<Eigen::Isometry3d> T_map_keyframe;
+    for (int node = 0; node < drive_.graph.settled; ++node) {
+      T_map_keyframe.push_back(drive_.graph.nodes[static_cast<std::size_t>(node)].T_world_camera);
+    }
+    frames_.forget(extension_->gone(), std::move(T_map_keyframe));
   }
 
   void moveWorld(const Eigen::Isometry3d& T_map_world) {
@@ -221,39 +245,11 @@ class Mapper {
   }
 
   void fuse() {
-    KeyframeStoreWriter store(folder_ / "keyframes.sqlite", recording_.camera());
-    std::map<int, int> node_of_frame;
-    for (std::size_t n = 0; n < drive_.graph.nodes.size(); ++n) {
-      if (drive_.graph.nodes[n].keyframe) {
-        node_of_frame[drive_.graph.nodes[n].frame] = static_cast<int>(n);
-      }
-    }
-    std::mutex mutex;
-    std::map<int, EncodedPictures> pictures;
-    const ViewObserver observer = {[&](const camera::RgbdFrame& frame) {
-                                     if (node_of_frame.contains(frame.index)) {
-                                       EncodedPictures encoded = encodePictures(frame.color, frame.depth_m);
-                                       const std::lock_guard lock(mutex);
-                                       pictures[frame.index] = std::move(encoded);
-                                     }
-                                   },
-                                   [&](const camera::RgbdFrame& frame) {
-                                     if (const auto node = node_of_frame.find(frame.index); node != node_of_frame.end()) {
-                                       store.add(toStored(node->second), pictures.at(frame.index));
-                                       pictures.erase(frame.index);
-                                     }
-                                   }};
-    fused_ = fuseMap(views(), floor_.status == FloorStatus::kFound, fusionInput(), config_.volume, observer, folder_);
-    store.commit();
-  }
-
-  [[nodiscard]] StoredKeyframe toStored(int id) const {
-    const Node& node = drive_.graph.nodes[static_cast<std::size_t>(id)];
-    StoredKeyframe stored{id, node.frame, node.stamp_ns, node.T_world_camera, {}, {}, drive_.features[static_cast<std::size_t>(id)], {}};
-    for (const int landmark : node.hosted) {
-      stored.landmarks.push_back(drive_.graph.landmarks[static_cast<std::size_t>(landmark)]);
-    }
-    return stored;
+    const GoneSpace nothing;
+    KeyframeSaver saver(folder_ / "keyframes.sqlite", recording_.camera(),
+                        {drive_, earlier_.get(), extension_ ? extension_->gone() : nothing});
+    fused_ = fuseMap(views(), floor_.status == FloorStatus::kFound, fusionInput(), config_.volume, saver.observer(), folder_);
+    saver.commit();
   }
 
   [[nodiscard]] recording::Trajectory trajectory(const Eigen::Isometry3d& T_camera_tracked) const {
@@ -265,14 +261,17 @@ class Mapper {
   }
 
   void write() {
-    recording::writeTrajectory(trajectory(Eigen::Isometry3d::Identity()), folder_ / "trajectory.txt");
-    if (T_base_camera_) {
-      recording::writeTrajectory(trajectory(T_base_camera_->inverse()), folder_ / "base_trajectory.txt");
-    }
+    const recording::Trajectory earlier = extension_ ? extension_->trajectory(drive_.graph) : recording::Trajectory();
+    writeTrajectories(earlier);
     writeG2o(drive_.graph, optimised_.believed, folder_ / "graph.g2o");
     base::writeFileAtomically(folder_ / "config.toml", base::writeConfig(config_));
-    const MapReport report = makeReport(
+    MapReport report = makeReport(
         {recording_, statistics_, drive_, optimised_, floor_, fused_, carried_, config_.volume, odometry_without_mount_, placement_});
+    report.drives = drives();
+    if (extension_) {
+      report.extension = {earlier, drive_.graph.settled, extension_->witnesses(), extension_->largestMove_m(drive_.graph),
+                          extension_->changes()};
+    }
     base::writeFileAtomically(folder_ / "report.json", reportJson(report));
     base::writeFileAtomically(folder_ / "report.html", reportHtml(report));
     clock_.end();
@@ -287,6 +286,24 @@ class Mapper {
     base::writeFileAtomically(folder_ / "timing.json", timingJson(timing));
   }
 
+  void writeTrajectories(const recording::Trajectory& earlier) const {
+    const auto write = [this](recording::Trajectory all, const recording::Trajectory& own, const char* name) {
+      all.insert(all.end(), own.begin(), own.end());
+      if (!all.empty()) {
+        recording::writeTrajectory(all, folder_ / name);
+      }
+    };
+    write(earlier, trajectory(Eigen::Isometry3d::Identity()), "trajectory.txt");
+    write(extension_ ? extension_->baseTrajectory(earlier) : recording::Trajectory(),
+          T_base_camera_ ? trajectory(T_base_camera_->inverse()) : recording::Trajectory(), "base_trajectory.txt");
+  }
+
+  [[nodiscard]] std::vector<DriveFacts> drives() const {
+    std::vector<DriveFacts> all = earlier_ ? earlier_->drives() : std::vector<DriveFacts>();
+    all.push_back({frames_.firstOfDrive(), static_cast<int>(drive_.frames.size()), frames_.addedToStampsS()});
+    return all;
+  }
+
   [[nodiscard]] MapResult summary() const {
     MapResult result;
     result.frames = static_cast<int>(drive_.frames.size());
@@ -297,6 +314,10 @@ class Mapper {
                          result.carried_frames;
     result.keyframes =
         static_cast<int>(std::count_if(drive_.graph.nodes.begin(), drive_.graph.nodes.end(), [](const Node& n) { return n.keyframe; }));
+    result.earlier_keyframes = drive_.graph.settled;
+    if (extension_) {
+      result.changes = extension_->changes();
+    }
     for (std::size_t e = 0; e < drive_.graph.edges.size(); ++e) {
       result.loops += drive_.graph.edges[e].kind == EdgeKind::kLoop && optimised_.believed[e] != 0 ? 1 : 0;
     }
@@ -311,6 +332,8 @@ class Mapper {
   const MapRun& run_;
   const std::filesystem::path& folder_;
   std::optional<Eigen::Isometry3d> T_base_camera_;
+  std::unique_ptr<const EarlierMap> earlier_;  ///< null: a new map
+  MapFrames frames_;
   KeyframeImages images_;
   StageClock clock_;
   recording::StreamStatistics statistics_;
@@ -321,6 +344,7 @@ class Mapper {
   std::vector<char> carried_;
   FloorResult floor_;
   std::optional<PlanPlacement> placement_;
+  std::optional<MapExtension> extension_;
   FusedMap fused_;
 };
 

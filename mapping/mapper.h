@@ -12,6 +12,7 @@
 #include "core/base/enum_table.h"
 #include "core/base/progress.h"
 #include "core/recording/recording.h"
+#include "mapping/extend/revision.h"
 #include "mapping/floorplan/plan_task.h"
 #include "mapping/graph/back_end.h"
 #include "mapping/graph/front_end.h"
@@ -36,6 +37,7 @@ struct MapConfig {
   VolumeConfig volume;
   WallScanConfig walls;
   PlanFitConfig floor_plan;
+  RevisionConfig revision;    ///< of a map that is extended
   int images_in_memory = 40;  ///< keyframe pyramids kept; the others are read again
 
   template <class Visitor>
@@ -47,6 +49,7 @@ struct MapConfig {
     visitor("volume", volume);
     visitor("walls", walls);
     visitor("floor_plan", floor_plan);
+    visitor("revision", revision);
     visitor("images_in_memory", images_in_memory);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
@@ -59,25 +62,30 @@ struct MapRun {
   std::optional<Eigen::Isometry3d> T_base_camera =
       std::nullopt;                             ///< the camera's mount; nothing: that of the recording's calibration, if it has one
   std::optional<PlanTask> plan = std::nullopt;  ///< the map is laid onto it; without one its frame is the base at the first frame
+  std::filesystem::path extended = {};          ///< the `map` folder that the drive goes on with; empty: a new map. It has a frame: no plan
   base::ProgressSink progress = {};
 };
 
 /// What came of it, for the summary; the whole of it stands in `report.json`.
 struct [[nodiscard]] MapResult {
   int frames = 0;
-  int skipped_frames = 0;  ///< could not be read
-  int lost_frames = 0;     ///< have a pose between, or of, those about them
-  int carried_frames = 0;  ///< could not be followed either, but odometry moved them on
-  int keyframes = 0;
+  int skipped_frames = 0;     ///< could not be read
+  int lost_frames = 0;        ///< have a pose between, or of, those about them
+  int carried_frames = 0;     ///< could not be followed either, but odometry moved them on
+  int keyframes = 0;          ///< of the map
+  int earlier_keyframes = 0;  ///< of these, those that it had before
   int loops = 0;
   int submaps = 0;  ///< parts of the drive that no loop has joined; 1 is what one wants
   bool floor_found = false;
   std::optional<PlanPlacement> placement = std::nullopt;  ///< if there was a plan
+  bool is_placed = true;             ///< false: the drive has no place in the map that it was to extend, and nothing was written
+  std::vector<Change> changes = {};  ///< between the map that was extended and the drive
 };
 
-/// Builds the metric map of a recorded drive: track → close loops → refine → find the floor → lay it onto the plan → fuse. Writes every
-/// file of `map/` into `map_folder`, which exists and is empty. Throws base::Error; kInput for a plan that does not fit, before anything is
-/// fused.
+/// Builds the metric map of a recorded drive, or extends one by another drive (S21): track → close loops → refine → find the floor → lay it
+/// onto the plan → fuse. Writes every file of `map/` into `map_folder`, which exists and is empty. Throws base::Error; kInput for a plan
+/// that does not fit, before anything is fused. A drive that extends a map is placed in it by loops, both are optimised together in the
+/// map's frame, what has gone is erased from the earlier keyframes, and everything is fused anew from the keyframes of all drives.
 MapResult buildMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run,
                    const std::filesystem::path& map_folder);
 

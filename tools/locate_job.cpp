@@ -2,12 +2,10 @@
 #include "tools/locate_job.h"
 
 #include <chrono>
-#include <cmath>
 #include <memory>
 
 #include "core/base/config.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/recording/frame_stream.h"
 #include "core/recording/trajectory.h"
 #include "mapping/mapper.h"
@@ -44,24 +42,6 @@ tracking::LocaliseConfig configOf(const LocateJob& job, const GlobalOptions& glo
   return config;
 }
 
-std::string cameraText(const camera::PinholeCamera& camera) {
-  using base::toText;
-  return std::to_string(camera.width) + "x" + std::to_string(camera.height) + ", fx " + toText(camera.fx) + ", fy " + toText(camera.fy) +
-         ", cx " + toText(camera.cx) + ", cy " + toText(camera.cy);
-}
-
-/// Landmarks of one camera are not looked for with another: half a pixel is forgiven.
-void requireSameCamera(const camera::PinholeCamera& map, const camera::PinholeCamera& recording, const fs::path& file) {
-  const auto near = [](double a, double b) { return std::abs(a - b) <= 0.5; };
-  if (map.width != recording.width || map.height != recording.height || !near(map.fx, recording.fx) || !near(map.fy, recording.fy) ||
-      !near(map.cx, recording.cx) || !near(map.cy, recording.cy)) {
-    throw base::Error(base::ErrorCode::kInput,
-                      "the map was made with another camera (" + cameraText(map) + ") than the recording's (" + cameraText(recording) +
-                          "): map the home with this one",
-                      file.string());
-  }
-}
-
 /// All that a localiser works with, opened.
 class Workshop {
  public:
@@ -88,7 +68,7 @@ class Workshop {
     const fs::path file = job_.home / "map" / "keyframes.sqlite";
     if (fs::exists(file)) {
       map_ = std::make_unique<mapping::SavedMap>(file, mapping::SavedMapConfig{config_.map.pyramid_levels});
-      requireSameCamera(map_->camera(), job_.recording.camera(), file);
+      mapping::requireSameCamera(map_->camera(), job_.recording.camera(), file);
       relocaliser_ = std::make_unique<mapping::Relocaliser>(*map_, config_.map, seed);
     } else if (job_.prior.empty() && !job_.from) {
       throw base::Error(base::ErrorCode::kUsage, "no such map: make it with oikos map, or say where the robot was with --prior or --from",

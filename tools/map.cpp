@@ -30,6 +30,7 @@ constexpr const char* kExamples =
     "  oikos map rgbd_dataset_freiburg1_rpy --camera tum-fr1 --out desk --resolution 0.02\n"
     "  oikos map ~/drives/flat-3 --out flat-3 --robot robot.urdf --base-link base_footprint --camera-link camera_optical\n"
     "  oikos map ~/drives/flat-3 --out flat-3 --floorplan flat-3.svg --floorplan-scale 0.01\n"
+    "  oikos map ~/drives/flat-3-tuesday --out ~/homes/flat-3 --extend\n"
     "  oikos map ~/drives/flat-3 --out flat-3 --set volume.every_frame=true --json";
 
 struct MapOptions {
@@ -43,12 +44,16 @@ struct MapOptions {
   std::string features;
   std::string resolution;
   bool every_frame = false;
+  bool extend = false;
   std::vector<std::string> settings;
 };
 
 void declareOptions(CLI::App& command, MapOptions& options) {
   command.add_option("RECORDING", options.recording, "folder of the drive: TUM RGB-D or 7-Scenes")->required();
-  command.add_option("--out", options.home, "folder of the home; its map is made or replaced, the rest is kept")->required();
+  command.add_option("--out", options.home, "folder of the home; its map is made, replaced or extended, the rest is kept")->required();
+  auto* const extend = command.add_flag("--extend", options.extend,
+                                        "go on with the home's map: the drive finds its place in it, both are optimised together, what has "
+                                        "gone is forgotten; by the map's own parameters, where --config and --set do not say otherwise");
   command.add_option("--camera", options.camera,
                      "a camera.toml, or kinect1, tum-fr1, tum-fr2, tum-fr3, icl-nuim; default: the recording's own");
   command.add_option("--features", options.features, "sift or orb");
@@ -57,6 +62,7 @@ void declareOptions(CLI::App& command, MapOptions& options) {
   command.add_option("--set", options.settings, "any parameter, as KEY=VALUE; may be repeated")->allow_extra_args(false);
   auto* const plan = command.add_option("--floorplan", options.floor_plan,
                                         "drawing of the walls, .svg or .dxf: the map is turned to its axes, or refused if it does not fit");
+  plan->excludes(extend);
   command.add_option("--floorplan-scale", options.floor_plan_scale, "metres a unit of the drawing; default: what a .dxf says, else 1")
       ->needs(plan)
       ->check(CLI::PositiveNumber);
@@ -64,8 +70,14 @@ void declareOptions(CLI::App& command, MapOptions& options) {
   declareMountOptions(command, options.mount);
 }
 
+/// A map that is extended has parameters already.
+std::filesystem::path configFileOf(const MapOptions& options, const GlobalOptions& global) {
+  const std::filesystem::path saved = options.home / "map" / "config.toml";
+  return global.config.empty() && options.extend && std::filesystem::exists(saved) ? saved : global.config;
+}
+
 mapping::MapConfig configOf(const MapOptions& options, const GlobalOptions& global) {
-  base::ConfigLayers layers{global.config, {}};
+  base::ConfigLayers layers{configFileOf(options, global), {}};
   for (const std::string& text : options.settings) {
     layers.settings.push_back(base::parseSetting(text));
   }
@@ -89,6 +101,27 @@ std::optional<mapping::PlanTask> planOf(const MapOptions& options) {
                            options.floor_plan.string()};
 }
 
+nlohmann::ordered_json changesJson(const std::vector<mapping::Change>& changes) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const mapping::Change& change : changes) {
+    list.push_back({{"kind", base::toString(change.kind)},
+                    {"center_map_m", {change.center_map.x(), change.center_map.y(), change.center_map.z()}},
+                    {"size_m", {change.size_m.x(), change.size_m.y(), change.size_m.z()}},
+                    {"confidence", change.confidence}});
+  }
+  return list;
+}
+
+void printChanges(const std::vector<mapping::Change>& changes) {
+  const auto three = [](const Eigen::Vector3d& v, const char* between) {
+    return base::toFixedText(v.x(), 2) + between + base::toFixedText(v.y(), 2) + between + base::toFixedText(v.z(), 2);
+  };
+  for (const mapping::Change& change : changes) {
+    std::cout << (change.kind == mapping::ChangeKind::kNew ? "new: " : "gone: ") << three(change.size_m, " x ") << " m at "
+              << three(change.center_map, " ") << '\n';
+  }
+}
+
 struct Summary {
   std::filesystem::path home;
   mapping::MapResult result;
@@ -97,7 +130,7 @@ struct Summary {
   [[nodiscard]] double framesPerSecond() const { return elapsed_s > 0.0 ? result.frames / elapsed_s : 0.0; }
 };
 
-void printJson(const Summary& summary) {
+void printJson(const Summary& summary, bool extended) {
   const mapping::MapResult& result = summary.result;
   nlohmann::ordered_json json = {
       {"home", summary.home.string()},
@@ -106,6 +139,7 @@ void printJson(const Summary& summary) {
       {"lost_frames", result.lost_frames},
       {"carried_frames", result.carried_frames},
       {"keyframes", result.keyframes},
+      {"earlier_keyframes", result.earlier_keyframes},
       {"loops", result.loops},
       {"submaps", result.submaps},
       {"floor_found", result.floor_found},
@@ -119,6 +153,9 @@ void printJson(const Summary& summary) {
                           {"plan_walls_seen_share", figures.supported_share},
                           {"upright_surface_on_plan_share", figures.on_plan_share}};
   }
+  if (extended) {
+    json["changes"] = changesJson(result.changes);
+  }
   std::cout << json.dump(2) << '\n';
 }
 
@@ -127,6 +164,11 @@ void printText(const Summary& summary) {
   std::cout << result.frames << " frames in " << base::toFixedText(summary.elapsed_s, 1) << " s ("
             << base::toFixedText(summary.framesPerSecond(), 1) << " per second), " << result.keyframes << " keyframes, " << result.loops
             << " loops\n";
+  if (result.earlier_keyframes > 0) {
+    std::cout << "the map had " << result.earlier_keyframes << " keyframes, the drive added " << result.keyframes - result.earlier_keyframes
+              << '\n';
+    printChanges(result.changes);
+  }
   if (result.skipped_frames > 0) {
     std::cout << result.skipped_frames << " frames could not be read\n";
   }
@@ -156,7 +198,7 @@ Summary buildHome(const MapOptions& options, const Session& session) {
   std::optional<mapping::PlanTask> plan = planOf(options);
   const auto recording = recording::openRecording(options.recording, {.camera = options.camera});
   const mapping::MapResult result =
-      mapIntoHome({*recording, options.home, config, mountOf(options.mount, *recording), std::move(plan)}, session);
+      mapIntoHome({*recording, options.home, config, mountOf(options.mount, *recording), std::move(plan), options.extend}, session);
   return {options.home, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
 }
 
@@ -168,7 +210,14 @@ void addMapCommand(CLI::App& root) {
   declareOptions(command, *options);
   setAction(command, [options](const Session& session) {
     const Summary summary = buildHome(*options, session);
-    session.options.json ? printJson(summary) : printText(summary);
+    if (!summary.result.is_placed) {
+      std::cerr
+          << "oikos: " << options->recording.string() << ": the drive has no place in the map of " << options->home.string()
+          << ": too few of its frames show what the map knows; the map is unchanged. Begin the drive where the map has been, or make a "
+             "new map without --extend\n";
+      return ExitCode::kNoAnswer;
+    }
+    session.options.json ? printJson(summary, options->extend) : printText(summary);
     return ExitCode::kDone;
   });
 }

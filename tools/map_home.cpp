@@ -50,13 +50,21 @@ std::optional<mapping::PlanTask> planFor(const MapJob& job, const std::optional<
 mapping::MapResult mapIntoHome(const MapJob& job, const Session& session) {
   TerminalProgress progress(session.options);
   const std::optional<semantic::Home> known = findHome(job.home);
+  const std::filesystem::path map = job.home / "map";
+  if (job.extend && !std::filesystem::exists(map)) {
+    throw base::Error(base::ErrorCode::kUsage, "no such map to extend: make one first, without --extend", map.string());
+  }
   const mapping::MapRun run{.threads = session.options.threads,
                             .seed = session.options.seed,
                             .T_base_camera = job.T_base_camera,
-                            .plan = planFor(job, known),
+                            .plan = job.extend ? std::nullopt : planFor(job, known),
+                            .extended = job.extend ? map : std::filesystem::path(),
                             .progress = progress.sink()};
   HomeStage stage(job.home, session.interrupts);
   const mapping::MapResult result = mapping::buildMap(job.recording, job.config, run, stage.mapFolder());
+  if (!result.is_placed) {
+    return result;
+  }
   if (known) {
     writeRoomClouds(*known, stage.mapFolder());
   }

@@ -185,8 +185,9 @@ std::vector<Change> boxChanges(ChangeKind kind, const EvidenceMap& evidence, con
     }
     const auto support_m = findSupport_m(box, support, lattice, config.max_tolerance_m);
     box.min_map.z() = std::min(box.min_map.z(), support_m.value_or(box.min_map.z()));
-    changes.push_back({kind, 0.5 * (box.min_map + box.max_map), box.max_map - box.min_map, support_m, confidenceOf(clusters[i], evidence),
-                       static_cast<int>(clusters[i].size())});
+    const double confidence = confidenceOf(clusters[i], evidence);
+    std::sort(clusters[i].begin(), clusters[i].end());
+    changes.push_back({kind, 0.5 * (box.min_map + box.max_map), box.max_map - box.min_map, support_m, confidence, std::move(clusters[i])});
   }
   return changes;
 }

@@ -41,7 +41,7 @@ struct ChangeConfig {
   double min_size_m = 0.1;         ///< of the second longest side: less is a sliver along an edge
   double min_known_share = 0.3;    ///< of a scan's surface: less lies in the map's space, and the scan is not compared
   double max_changed_share = 0.6;  ///< of a scan's surface, or of the map's in view: more has changed, and the scan is misplaced
-  int threads = 1;                 ///< the result does not depend on it
+  int threads = 1;                 ///< the result does not depend on it; not written to files
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -59,7 +59,6 @@ struct ChangeConfig {
     visitor("min_size_m", min_size_m);
     visitor("min_known_share", min_known_share);
     visitor("max_changed_share", max_changed_share);
-    visitor("threads", threads);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
 };

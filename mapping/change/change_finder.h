@@ -9,6 +9,7 @@
 #include "mapping/change/change_config.h"
 #include "mapping/change/scan_view.h"
 #include "mapping/change/seen_space.h"
+#include "mapping/volume/voxel_key.h"
 
 namespace oikos::mapping {
 
@@ -28,7 +29,7 @@ struct Change {
   /// 0 to 1: the share of views that agree, times the probability that an error of pose, depth and map is smaller than the median voxel
   /// stands clear. Errors of a scan's voxels are not independent: more voxels make a change no surer.
   double confidence = 0.0;
-  int voxels = 0;
+  std::vector<VoxelKey> voxels;  ///< ascending
 };
 
 enum class ChangeStatus {

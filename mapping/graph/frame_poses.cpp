@@ -3,7 +3,6 @@
 
 #include <map>
 
-#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "mapping/odometry/pose_solver.h"
 
@@ -69,9 +68,9 @@ void setNodeVelocities(KeyframeGraph& graph, const std::vector<TrackedFrame>& fr
     position[frames[i].frame] = i;
   }
   for (Node& node : graph.nodes) {
-    const auto found = position.find(node.frame);
-    OIKOS_CHECK(found != position.end());
-    node.velocity = velocities[found->second];
+    if (const auto found = position.find(node.frame); found != position.end()) {
+      node.velocity = velocities[found->second];
+    }
   }
 }
 

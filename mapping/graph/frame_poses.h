@@ -22,7 +22,7 @@ struct RollingShutterCamera {
 [[nodiscard]] std::vector<geometry::Vector6d> velocitiesOf(const std::vector<TrackedFrame>& frames,
                                                            const std::vector<Eigen::Isometry3d>& T_world_frame, double max_gap_s = 0.15);
 
-/// Gives each node the velocity of its frame.
+/// Gives each node whose frame is among these its velocity.
 void setNodeVelocities(KeyframeGraph& graph, const std::vector<TrackedFrame>& frames, const std::vector<geometry::Vector6d>& velocities);
 
 /// The pose of every frame from its own sightings of the refined landmarks; where these are too few, from its reference node.

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "core/base/error.h"
 #include "mapping/graph/front_end_frame.h"
 #include "mapping/graph/local_map.h"
 #include "mapping/odometry/rotation_alignment.h"
@@ -28,8 +29,21 @@ std::vector<Observation> evenlyThinned(const std::vector<Observation>& observati
 
 }  // namespace
 
-FrontEnd::FrontEnd(const FrontEndTools& tools, const FrontEndConfig& config, const LoopConsistencyConfig& loops, std::uint64_t seed)
-    : camera_(tools.camera), odometry_(tools.odometry), images_(tools.images), config_(config), loops_(loops), seed_(seed) {}
+FrontEnd::FrontEnd(const FrontEndTools& tools, const FrontEndConfig& config, const LoopConsistencyConfig& loops, std::uint64_t seed,
+                   FrontEndResult map)
+    : camera_(tools.camera),
+      odometry_(tools.odometry),
+      images_(tools.images),
+      config_(config),
+      loops_(loops),
+      seed_(seed),
+      result_(std::move(map)) {
+  OIKOS_CHECK(result_.graph.settled == static_cast<int>(result_.graph.nodes.size()));
+  for (int node = 0; node < result_.graph.settled; ++node) {
+    places_.add(node, result_.features[static_cast<std::size_t>(node)]);
+  }
+  result_.submaps = result_.graph.settled > 0 ? 1 : 0;
+}
 
 void FrontEnd::add(const camera::RgbdFrame& frame) {
   Current current{frame, std::make_shared<const ImagePyramid>(frame.gray, config_.pyramid_levels), {}};
@@ -102,6 +116,8 @@ bool FrontEnd::startSubmap(const Current& current) {
   wheels_ = WheelWay();
   active_.clear();
   Current first = current;
+  // Within a drive, recovery has just looked for known places in vain.
+  const std::vector<Revisit> revisits = result_.graph.settled > 0 ? findRevisits(first) : std::vector<Revisit>();
   const int node = addNode(first, T_world_camera_);
   result_.graph.nodes.back().keyframe = true;
   latest_ = node;
@@ -114,6 +130,7 @@ bool FrontEnd::startSubmap(const Current& current) {
   T_previous_current_.setIdentity();
   result_.features.back() = first.getFeatures(camera_, config_.features);
   places_.add(node, result_.features.back());
+  addLoops(node, revisits, seen_at_keyframe_);
   FollowResult seen;
   seen.pose.T_world_camera = T_world_camera_;
   record(current, seen, TrackingStatus::kStart);
@@ -221,16 +238,7 @@ void FrontEnd::addKeyframe(Current& current, FollowResult& seen) {
   Node& added = result_.graph.nodes[static_cast<std::size_t>(node)];
   added.submap = result_.graph.nodes[static_cast<std::size_t>(parent)].submap;
   added.observations = seen.observations;
-  const Revisit* reused = nullptr;
-  for (const Revisit& revisit : revisits) {
-    addEdge(revisit.node, node, EdgeKind::kLoop, revisit.seen, revisit.seen.pose.T_world_camera);
-    result_.graph.edges.back().observations = revisit.seen.observations;
-    const bool enough = revisit.overlap >= config_.reuse_overlap && (!reused || revisit.overlap > reused->overlap);
-    if (enough && driftAllows(result_.graph, result_.graph.edges.back(), bridges_, loops_)) {
-      reused = &revisit;
-    }
-  }
-  if (reused != nullptr) {
+  if (const Revisit* const reused = addLoops(node, revisits, seen.pose.inliers)) {
     ++result_.reused_keyframes;
     seen = reused->seen;
     adopt(seen);

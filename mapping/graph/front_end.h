@@ -35,6 +35,8 @@ struct FrontEndConfig {
   int loop_candidates = 4;              ///< places verified per keyframe
   int min_loop_votes = 15;
   double reuse_overlap = 0.6;  ///< share of an old keyframe's landmarks that must be seen again to take it instead of a new one
+  int settled_views = 3;       ///< keyframes whose loops into a map that is extended must agree before tracking goes on in its world
+  double settled_share = 0.5;  ///< and its landmarks in view must be this share of those followed until then
   int kept_sightings = 160;    ///< of a frame's landmarks, for its final pose: what is kept of every frame grows with the drive
   int max_lost_frames = 5;     ///< lost for longer: a new sub-map is begun where there is enough to follow
   WheelGate wheels;            ///< a pose that the wheels contradict is not believed: much in a home looks alike
@@ -55,6 +57,8 @@ struct FrontEndConfig {
     visitor("loop_candidates", loop_candidates);
     visitor("min_loop_votes", min_loop_votes);
     visitor("reuse_overlap", reuse_overlap);
+    visitor("settled_views", settled_views);
+    visitor("settled_share", settled_share);
     visitor("kept_sightings", kept_sightings);
     visitor("max_lost_frames", max_lost_frames);
     visitor("wheels", wheels);
@@ -107,10 +111,16 @@ struct FrontEndTools {
 
 /// From images to a graph of keyframes, one frame at a time: follows landmarks, sets keyframes where the view changes, recognises
 /// places, recovers lost tracking or begins a new sub-map. Not thread-safe.
+///
+/// A drive that extends a map begins in a sub-map of its own beside the map's, and goes on in the map's world once loops of several
+/// keyframes agree on how the two lie to each other: from then on the map's landmarks are followed, and keyframes are added only where
+/// they do not suffice.
 class FrontEnd {
  public:
   /// `loops`: how far tracking may stray; an old keyframe that this does not allow to be here is not taken instead of a new one.
-  FrontEnd(const FrontEndTools& tools, const FrontEndConfig& config, const LoopConsistencyConfig& loops, std::uint64_t seed);
+  /// `map`: graph and features of the map to extend, all of its nodes settled; frames to come have numbers that none of them has.
+  FrontEnd(const FrontEndTools& tools, const FrontEndConfig& config, const LoopConsistencyConfig& loops, std::uint64_t seed,
+           FrontEndResult map = {});
 
   void add(const camera::RgbdFrame& frame);
   /// Every frame that was added, each on a node; if none could be followed, all are lost and hang on the first. The front end is
@@ -134,6 +144,9 @@ class FrontEnd {
   struct Revisit;
   [[nodiscard]] std::optional<Revisit> verify(Current& current, const PlaceIndex::Candidate& candidate);
   [[nodiscard]] std::vector<Revisit> findRevisits(Current& current);
+  const Revisit* addLoops(int node, const std::vector<Revisit>& revisits, int followed);
+  [[nodiscard]] bool isInSettledWorld(int node) const;
+  [[nodiscard]] bool mayGoOnFrom(const Revisit& revisit, const Edge& loop, int followed) const;
   void record(const Current& current, const FollowResult& seen, TrackingStatus status);
   int addNode(const Current& current, const Eigen::Isometry3d& T_world_camera);
   void addEdge(int from, int to, EdgeKind kind, const FollowResult& seen, const Eigen::Isometry3d& T_world_to);

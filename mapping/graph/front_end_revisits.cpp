@@ -18,6 +18,7 @@ std::optional<FollowResult> FrontEnd::recover(Current& current) {
       nodes.push_back(c.place);
     }
   }
+  std::erase_if(nodes, [&](int node) { return isInSettledWorld(node) && !isInSettledWorld(reference_); });  // one view is no proof
   for (const int node : nodes) {
     auto revisit = verify(current, {node, 0});
     if (revisit && wheelsContradict(revisit->seen.pose.T_world_camera)) {
@@ -78,6 +79,32 @@ std::vector<FrontEnd::Revisit> FrontEnd::findRevisits(Current& current) {
     }
   }
   return revisits;
+}
+
+/// An edge each; the one to go on from instead of a new keyframe, if there is one: it shows most of its old landmarks. `followed`:
+/// landmarks that tracking followed into the node.
+const FrontEnd::Revisit* FrontEnd::addLoops(int node, const std::vector<Revisit>& revisits, int followed) {
+  const Revisit* best = nullptr;
+  for (const Revisit& revisit : revisits) {
+    addEdge(revisit.node, node, EdgeKind::kLoop, revisit.seen, revisit.seen.pose.T_world_camera);
+    result_.graph.edges.back().observations = revisit.seen.observations;
+    if ((best == nullptr || revisit.overlap > best->overlap) && mayGoOnFrom(revisit, result_.graph.edges.back(), followed)) {
+      best = &revisit;
+    }
+  }
+  return best;
+}
+
+/// Of the map that is extended, or of what goes on in its world.
+bool FrontEnd::isInSettledWorld(int node) const {
+  return result_.graph.settled > 0 && result_.graph.nodes[static_cast<std::size_t>(node)].submap == 0;
+}
+
+bool FrontEnd::mayGoOnFrom(const Revisit& revisit, const Edge& loop, int followed) const {
+  if (isInSettledWorld(loop.from) && !isInSettledWorld(loop.to)) {
+    return revisit.seen.pose.inliers >= config_.settled_share * followed && isConfirmed(result_.graph, loop, config_.settled_views, loops_);
+  }
+  return revisit.overlap >= config_.reuse_overlap && driftAllows(result_.graph, loop, bridges_, loops_);
 }
 
 /// Goes on in the world of other nodes: what was seen there becomes the present.

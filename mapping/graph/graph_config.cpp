@@ -21,6 +21,8 @@ std::vector<std::string> FrontEndConfig::validate() const {
       .atLeast("loop_candidates", loop_candidates, 0)
       .atLeast("min_loop_votes", min_loop_votes, 1)
       .between("reuse_overlap", reuse_overlap, 0.0, 1.0)
+      .atLeast("settled_views", settled_views, 1)
+      .between("settled_share", settled_share, 0.0, 1.0)
       .atLeast("kept_sightings", kept_sightings, 30)
       .atLeast("max_lost_frames", max_lost_frames, 0);
   return rules.messages();

@@ -41,6 +41,7 @@ struct KeyframeGraph {
   std::vector<Node> nodes;
   std::vector<Landmark> landmarks;
   std::vector<Edge> edges;
+  int settled = 0;  ///< so many nodes at the front are keyframes of a map that is extended: an earlier run has put them in their places
 };
 
 /// Whether a camera there has the landmark in its image, whatever stands before it.

@@ -174,6 +174,10 @@ cv::Mat KeyframeReader::readDepth(int id) const {
   return decodeDepth(readBlob(kSelectDepth, id), nameOf(file_.string(), id));
 }
 
+EncodedPictures KeyframeReader::readPictures(int id) const {
+  return {readBlob(kSelectColor, id), readBlob(kSelectDepth, id)};
+}
+
 KeyframeStore readKeyframeStore(const std::filesystem::path& file) {
   const KeyframeReader reader(file);
   KeyframeStore store{reader.camera(), reader.readKeyframes()};

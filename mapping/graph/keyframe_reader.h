@@ -27,6 +27,8 @@ class KeyframeReader {
   [[nodiscard]] cv::Mat readColor(int id) const;  ///< CV_8UC3, BGR
   [[nodiscard]] cv::Mat readGray(int id) const;   ///< CV_8UC1: the JPEG's brightness
   [[nodiscard]] cv::Mat readDepth(int id) const;  ///< CV_32FC1, metres, NaN = no reading
+  /// As they are stored: to be stored again without loss.
+  [[nodiscard]] EncodedPictures readPictures(int id) const;
 
  private:
   struct Close {

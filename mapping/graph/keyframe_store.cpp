@@ -32,19 +32,6 @@ std::vector<unsigned char> toBlob(const std::vector<Row>& rows) {
   return blob;
 }
 
-std::vector<unsigned char> encodeDepth(const cv::Mat& depth_m) {
-  cv::Mat units(depth_m.size(), CV_16UC1);
-  for (int y = 0; y < depth_m.rows; ++y) {
-    const float* in = depth_m.ptr<float>(y);
-    auto* out = units.ptr<std::uint16_t>(y);
-    for (int x = 0; x < depth_m.cols; ++x) {
-      const double value = static_cast<double>(in[x]) * kDepthUnitsPerMetre;
-      out[x] = value > 0.0 && value < 65535.0 ? static_cast<std::uint16_t>(std::lround(value)) : std::uint16_t{0};
-    }
-  }
-  return recording::encodePng(units, 1);
-}
-
 std::vector<unsigned char> encodeFeatures(const Features& features) {
   std::vector<FeatureRow> rows(static_cast<std::size_t>(features.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -104,6 +91,19 @@ KeyframeStoreWriter::KeyframeStoreWriter(const std::filesystem::path& file, cons
 }
 
 KeyframeStoreWriter::~KeyframeStoreWriter() = default;
+
+std::vector<unsigned char> encodeDepth(const cv::Mat& depth_m) {
+  cv::Mat units(depth_m.size(), CV_16UC1);
+  for (int y = 0; y < depth_m.rows; ++y) {
+    const float* in = depth_m.ptr<float>(y);
+    auto* out = units.ptr<std::uint16_t>(y);
+    for (int x = 0; x < depth_m.cols; ++x) {
+      const double value = static_cast<double>(in[x]) * kDepthUnitsPerMetre;
+      out[x] = value > 0.0 && value < 65535.0 ? static_cast<std::uint16_t>(std::lround(value)) : std::uint16_t{0};
+    }
+  }
+  return recording::encodePng(units, 1);
+}
 
 EncodedPictures encodePictures(const cv::Mat& color, const cv::Mat& depth_m) {
   return {recording::encodeJpeg(color, kJpegQuality), encodeDepth(depth_m)};

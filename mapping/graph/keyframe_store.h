@@ -33,6 +33,8 @@ struct EncodedPictures {
 };
 /// The part of storing that takes time. Thread-safe.
 [[nodiscard]] EncodedPictures encodePictures(const cv::Mat& color, const cv::Mat& depth_m);
+/// The depth's part alone: what was read from a store comes out as the same readings.
+[[nodiscard]] std::vector<unsigned char> encodeDepth(const cv::Mat& depth_m);
 
 /// Writes `keyframes.sqlite`: tables `meta` (format, version, camera) and `keyframe` (one row each; blobs little-endian), in one ordered
 /// transaction. The same calls give the same bytes. Not thread-safe. Throws Error{kIo}.

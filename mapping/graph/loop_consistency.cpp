@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/base/error.h"
@@ -19,8 +20,11 @@ namespace {
 class OdometryForest {
  public:
   OdometryForest(const KeyframeGraph& graph, const std::vector<MotionPrior>& bridges) : nodes_(graph.nodes.size()) {
+    for (int settled = 1; settled < graph.settled; ++settled) {
+      hang(settled, 0, kEdgesToASettled);
+    }
     for (const Edge& e : graph.edges) {
-      if (e.kind == EdgeKind::kOdometry) {
+      if (e.kind == EdgeKind::kOdometry && e.to >= graph.settled) {
         hang(e.to, e.from, 1);
       }
     }
@@ -45,6 +49,8 @@ class OdometryForest {
   // Wheels are worth less than tracking: a bridge strays like so many edges.
   static constexpr int kEdgesOfABridge = 4;
   static constexpr int kEdgesPerBridged_m = 4;
+  // An optimised map is off by no more between any two of its places, however long the way was between them.
+  static constexpr int kEdgesToASettled = 4;
   struct Hanging {
     int parent = -1;
     int edges = 0;
@@ -73,6 +79,7 @@ std::vector<MotionPrior> bridgesOf(const KeyframeGraph& graph, const std::vector
 /// The graph's nodes as far as their place goes, and the odometry between them; sub-maps are in one world where there is a bridge.
 KeyframeGraph joinedBy(const std::vector<MotionPrior>& bridges, const KeyframeGraph& graph) {
   KeyframeGraph places;
+  places.settled = graph.settled;
   for (const Node& node : graph.nodes) {
     Node& place = places.nodes.emplace_back();
     place.submap = node.submap;
@@ -190,6 +197,19 @@ bool driftAllows(const KeyframeGraph& graph, const Edge& loop, const std::vector
   return judge.submap(loop.from) != judge.submap(loop.to) || judge.agreesWithOdometry(loop);
 }
 
+bool isConfirmed(const KeyframeGraph& graph, const Edge& loop, int views, const LoopConsistencyConfig& config) {
+  const Judge judge(graph, config);
+  const auto submaps = std::minmax({judge.submap(loop.from), judge.submap(loop.to)});
+  std::set<int> seen_in{loop.to};
+  for (const Edge& other : graph.edges) {
+    const bool joins_the_same = other.kind == EdgeKind::kLoop && std::minmax({judge.submap(other.from), judge.submap(other.to)}) == submaps;
+    if (joins_the_same && !seen_in.contains(other.to) && judge.consistent(judge.claimOf(loop), judge.claimOf(other))) {
+      seen_in.insert(other.to);
+    }
+  }
+  return static_cast<int>(seen_in.size()) >= views;
+}
+
 std::vector<char> consistentEdges(const KeyframeGraph& graph, const std::vector<MotionPrior>& wheels, const LoopConsistencyConfig& config,
                                   int min_lone_inliers) {
   const Judge judge(graph, config);
@@ -217,7 +237,8 @@ std::vector<char> consistentEdges(const KeyframeGraph& graph, const std::vector<
     const std::vector<std::size_t> clique = largestClique(consistent);
     for (const std::size_t member : clique) {
       const Edge& edge = graph.edges[edges[member]];
-      const bool lone_but_strong = submaps.first != submaps.second && edge.inliers >= min_lone_inliers;
+      const bool is_into_settled = graph.settled > 0 && submaps.first == 0;
+      const bool lone_but_strong = submaps.first != submaps.second && edge.inliers >= min_lone_inliers && !is_into_settled;
       believed[edges[member]] = clique.size() > 1 || judge.agreesWithOdometry(edge) || lone_but_strong ? 1 : 0;
     }
   }

@@ -33,11 +33,16 @@ struct LoopConsistencyConfig {
 [[nodiscard]] bool driftAllows(const KeyframeGraph& graph, const Edge& loop, const std::vector<MotionPrior>& wheels,
                                const LoopConsistencyConfig& config);
 
+/// Whether loops seen in at least `views` nodes, this one among them, say the same of how its two sub-maps lie to each other: what a drive
+/// has to show before it goes on in the world of a map that is extended.
+[[nodiscard]] bool isConfirmed(const KeyframeGraph& graph, const Edge& loop, int views, const LoopConsistencyConfig& config);
+
 /// Which loop edges to believe: the largest set found of which every two close a cycle with the odometry between them (Mangelson
 /// et al., "Pairwise Consistent Measurement Set Maximization", ICRA 2018), by a greedy search from every edge. Loops to places that
 /// only look the same agree with one another too: what tracking contradicts, or `wheels` between two sub-maps, has no say. Loops
 /// between the same two sub-maps are judged among themselves. A lone loop is believed only if the odometry itself agrees with it,
-/// or if it is all that joins two sub-maps and has `min_lone_inliers` inliers. One entry an edge of the graph; odometry: true.
+/// or if it is all that joins two sub-maps and has `min_lone_inliers` inliers, but never if it joins one to a map that is extended. One
+/// entry an edge of the graph; odometry: true.
 [[nodiscard]] std::vector<char> consistentEdges(const KeyframeGraph& graph, const std::vector<MotionPrior>& wheels,
                                                 const LoopConsistencyConfig& config, int min_lone_inliers = 40);
 

@@ -35,6 +35,12 @@ class SavedMap {
   /// By node.
   [[nodiscard]] const PlaceIndex& places() const { return places_; }
   [[nodiscard]] std::shared_ptr<const ImagePyramid> pyramid(int node) const { return images_->get(node); }
+  // Of the node's keyframe, from the disk.
+  [[nodiscard]] int storedId(int node) const { return stored_id_[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] cv::Mat readColor(int node) const { return reader_.readColor(storedId(node)); }
+  [[nodiscard]] cv::Mat readGray(int node) const { return reader_.readGray(storedId(node)); }
+  [[nodiscard]] cv::Mat readDepth(int node) const { return reader_.readDepth(storedId(node)); }
+  [[nodiscard]] EncodedPictures readPictures(int node) const { return reader_.readPictures(storedId(node)); }
 
  private:
   KeyframeReader reader_;
@@ -44,5 +50,8 @@ class SavedMap {
   PlaceIndex places_;
   std::unique_ptr<KeyframeImages> images_;
 };
+
+/// Landmarks of one camera are not looked for with another: half a pixel is forgiven. Throws Error{kInput}; `file` is the map's.
+void requireSameCamera(const camera::PinholeCamera& map, const camera::PinholeCamera& recording, const std::filesystem::path& file);
 
 }  // namespace oikos::mapping

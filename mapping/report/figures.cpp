@@ -20,7 +20,9 @@ void checkConsistent(const MapReport& report) {
   OIKOS_CHECK(report.trajectory_before_loops.empty() || report.trajectory_before_loops.size() == report.frames.size());
   const int frames = static_cast<int>(report.frames.size());
   for (const LoopFacts& loop : report.loops) {
-    OIKOS_CHECK(loop.from_frame >= 0 && loop.from_frame < frames && loop.to_frame >= 0 && loop.to_frame < frames);
+    OIKOS_CHECK(!loop.is_to_earlier_drive || report.extension);
+    const int targets = loop.is_to_earlier_drive ? static_cast<int>(report.extension->trajectory.size()) : frames;
+    OIKOS_CHECK(loop.from_frame >= 0 && loop.from_frame < frames && loop.to_frame >= 0 && loop.to_frame < targets);
   }
 }
 
@@ -52,6 +54,7 @@ void countFrames(const MapReport& report, ReportFigures& figures) {
 void countLoops(const MapReport& report, ReportFigures& figures) {
   for (const LoopFacts& loop : report.loops) {
     figures.loops_accepted += loop.verdict == LoopVerdict::kAccepted ? 1 : 0;
+    figures.loops_to_earlier += loop.verdict == LoopVerdict::kAccepted && loop.is_to_earlier_drive ? 1 : 0;
     figures.loops_down_weighted += loop.verdict == LoopVerdict::kDownWeighted ? 1 : 0;
   }
   figures.loops_rejected = static_cast<int>(report.loops.size()) - figures.loops_accepted - figures.loops_down_weighted;

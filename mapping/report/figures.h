@@ -16,6 +16,7 @@ struct ReportFigures {
   int lost = 0;
   int keyframes = 0;
   int loops_accepted = 0;
+  int loops_to_earlier = 0;  ///< of these: to a place of an earlier drive
   int loops_down_weighted = 0;
   int loops_rejected = 0;
   double drive_s = 0.0;               ///< first to last stamp of the recording

@@ -137,7 +137,8 @@ std::string loopLines(const MapReport& report, const View& view) {
     for (const LoopFacts& loop : report.loops) {
       if ((loop.verdict == LoopVerdict::kAccepted) == accepted) {
         const Eigen::Vector2d from = view(groundPoint(report.trajectory[static_cast<std::size_t>(loop.from_frame)]));
-        const Eigen::Vector2d to = view(groundPoint(report.trajectory[static_cast<std::size_t>(loop.to_frame)]));
+        const Trajectory& targets = loop.is_to_earlier_drive ? report.extension->trajectory : report.trajectory;
+        const Eigen::Vector2d to = view(groundPoint(targets[static_cast<std::size_t>(loop.to_frame)]));
         lines +=
             "<path class=\"" + std::string(accepted ? "loop" : "refused") + "\" d=\"M" + pointText(from) + "L" + pointText(to) + "\"/>\n";
       }
@@ -198,10 +199,27 @@ std::string planLines(const MapReport& report, const View& view) {
   return lines.empty() ? "" : "<path class=\"plan\" d=\"" + lines + "\"/>\n";
 }
 
+std::string changeBoxes(const ExtensionFacts& extension, const View& view) {
+  std::string boxes;
+  for (const Change& change : extension.changes) {
+    const Eigen::Vector2d half_m = 0.5 * change.size_m.head<2>();
+    const Eigen::Vector2d low = view(change.center_map.head<2>() - half_m);
+    const Eigen::Vector2d high = view(change.center_map.head<2>() + half_m);
+    boxes += "<rect class=\"change-" + std::string(base::toString(change.kind)) + "\"" + attribute("x", low.x()) +
+             attribute("y", high.y()) + attribute("width", high.x() - low.x()) + attribute("height", low.y() - high.y()) + "/>\n";
+  }
+  return boxes;
+}
+
 Box shownPart(const MapReport& report, const cv::Rect& known) {
   Box shown;
   for (const Trajectory* trajectory : {&report.trajectory, &report.trajectory_before_loops}) {
     for (const recording::StampedPose& pose : *trajectory) {
+      shown.extend(groundPoint(pose));
+    }
+  }
+  if (report.extension) {
+    for (const recording::StampedPose& pose : report.extension->trajectory) {
       shown.extend(groundPoint(pose));
     }
   }
@@ -224,6 +242,7 @@ std::string mapFigure(const MapReport& report) {
                     "\" role=\"img\" aria-label=\"The camera's path over the floor, from above\">\n";
   svg += gridImage(report.grid, known, view);
   svg += planLines(report, view);
+  svg += report.extension ? pathLine(report.extension->trajectory, view, "earlier") + changeBoxes(*report.extension, view) : "";
   svg += pathLine(report.trajectory_before_loops, view, "before");
   svg += loopLines(report, view);
   svg += pathLine(report.trajectory, view, "after");

@@ -12,6 +12,7 @@
 #include "core/base/enum_table.h"
 #include "core/camera/pinhole_camera.h"
 #include "core/recording/trajectory.h"
+#include "mapping/change/change_finder.h"
 
 namespace oikos::mapping {
 
@@ -63,11 +64,28 @@ constexpr auto enumTable(LoopVerdict) {
 
 /// A place that looked like one seen before, and what became of it.
 struct LoopFacts {
-  int from_frame = 0;  ///< the later one; index into MapReport::frames
-  int to_frame = 0;    ///< the earlier one
+  int from_frame = 0;                ///< the later one; index into MapReport::frames
+  int to_frame = 0;                  ///< the earlier one
+  bool is_to_earlier_drive = false;  ///< `to_frame` is an index into MapReport::extension->trajectory instead
   int inliers = 0;
   double residual_px = 0.0;
   LoopVerdict verdict = LoopVerdict::kRejectedByGeometry;
+};
+
+/// One of the drives that a map is made of.
+struct DriveFacts {
+  int first_frame = 0;  ///< frames are numbered through, in the order of trajectory.txt
+  int frames = 0;
+  std::int64_t added_to_stamps_s = 0;  ///< to each stamp of its recording, where its clock does not go on from the drive before
+};
+
+/// What was there before a drive that extends a map, and what became of it.
+struct ExtensionFacts {
+  recording::Trajectory trajectory;  ///< T_map_camera of the earlier drives' frames, final
+  int keyframes = 0;                 ///< of the earlier drives
+  int witnesses = 0;                 ///< keyframes of this drive that are kept because they show changes
+  double largest_move_m = 0.0;       ///< of an earlier keyframe, by the optimisation with this drive
+  std::vector<Change> changes;       ///< of what stands where, between the earlier drives and this one
 };
 
 /// A number that the optimiser was free to change.
@@ -130,7 +148,8 @@ struct GridPicture {
 };
 
 /// Everything that `report.json` and `report.html` tell about a map. Plain values, equal for equal input: no time of day, no
-/// time taken, no path, no thread count. One entry of `frames` and `trajectory` per frame read, in order.
+/// time taken, no path, no thread count. Frames, trajectory and loops are those of this drive. One entry of `frames` and `trajectory` per
+/// frame read, in order.
 struct MapReport {
   RecordingFacts recording;
   std::vector<FrameFacts> frames;
@@ -142,7 +161,9 @@ struct MapReport {
   std::vector<LoopFacts> loops;
   OptimisationFacts optimisation;
   FloorFacts floor;
-  std::optional<PlanFacts> plan;  ///< nothing: there was no floor plan
+  std::optional<PlanFacts> plan;            ///< nothing: there was no floor plan
+  std::vector<DriveFacts> drives;           ///< all that the map is made of, this one last
+  std::optional<ExtensionFacts> extension;  ///< nothing: the map is of this drive alone
   VolumeFacts volume;
   GridPicture grid;
   std::vector<std::string> warnings;  ///< one line each, for a person

@@ -63,6 +63,8 @@ std::string key(const std::string& style_class, const std::string& text) {
 std::string mapSection(const MapReport& report, const ReportFigures& figures) {
   std::string legend = key("key-after", report.trajectory_before_loops.empty() ? "path" : "path after loop closure");
   legend += report.trajectory_before_loops.empty() ? "" : key("key-before", "before");
+  legend += report.extension ? key("key-earlier", "earlier drives") : "";
+  legend += report.extension && !report.extension->changes.empty() ? key("box key-new", "new") + key("box key-gone", "gone") : "";
   legend += figures.loops_accepted > 0 ? key("key-loop", "loop closed") : "";
   legend += figures.loops_accepted < static_cast<int>(report.loops.size()) ? key("dash key-refused", "loop refused") : "";
   legend += key("box dot key-start", "start") + key("box key-end", "end");
@@ -165,6 +167,47 @@ std::string planSection(const std::optional<PlanFacts>& plan) {
                                           {"surface beyond the plan", percentText(plan->beyond_share)}}));
 }
 
+std::string moreRows(std::size_t all) {
+  return all <= kMaxRows ? ""
+                         : "<p class=\"note\">The first " + countText(kMaxRows) + " of " + countText(static_cast<std::int64_t>(all)) +
+                               "; report.json has them all.</p>\n";
+}
+
+std::string extensionSection(const MapReport& report, const ReportFigures& figures) {
+  if (!report.extension) {
+    return "";
+  }
+  const ExtensionFacts& extension = *report.extension;
+  return section("What was extended",
+                 factTable({{"earlier drives", countText(static_cast<std::int64_t>(report.drives.size()) - 1)},
+                            {"their frames", countText(static_cast<std::int64_t>(extension.trajectory.size()))},
+                            {"their keyframes", countText(extension.keyframes)},
+                            {"loops into them", countText(figures.loops_to_earlier)},
+                            {"new keyframes that show changes", countText(extension.witnesses)},
+                            {"an earlier keyframe moved by up to", numberText(1000.0 * extension.largest_move_m, 1) + " mm"}}));
+}
+
+std::string changesSection(const std::optional<ExtensionFacts>& extension) {
+  if (!extension) {
+    return "";
+  }
+  if (extension->changes.empty()) {
+    return section("What has changed", "<p>Nothing that is large enough to be told from errors of the map.</p>\n");
+  }
+  std::string html =
+      "<div class=\"scroll\"><table>\n<tr><th>kind</th><th class=\"number\">centre x, y, z, m</th>"
+      "<th class=\"number\">size, m</th><th class=\"number\">confidence</th></tr>\n";
+  const auto three = [](const Eigen::Vector3d& v) {
+    return numberText(v.x(), 2) + ", " + numberText(v.y(), 2) + ", " + numberText(v.z(), 2);
+  };
+  for (std::size_t i = 0; i < extension->changes.size() && i < kMaxRows; ++i) {
+    const Change& change = extension->changes[i];
+    html += "<tr>" + element("td", "text", std::string(base::toString(change.kind))) + element("td", "number", three(change.center_map)) +
+            element("td", "number", three(change.size_m)) + element("td", "number", numberText(change.confidence, 2)) + "</tr>\n";
+  }
+  return section("What has changed", html + "</table></div>\n" + moreRows(extension->changes.size()));
+}
+
 std::string optimisationSection(const OptimisationFacts& optimisation) {
   std::string html = factTable({{"cost before", numberText(optimisation.initial_cost, 1)},
                                 {"cost after", numberText(optimisation.final_cost, 1)},
@@ -193,12 +236,6 @@ std::string verdictText(LoopVerdict verdict) {
       return "refused: contradicts other loops";
   }
   return "";
-}
-
-std::string moreRows(std::size_t all) {
-  return all <= kMaxRows ? ""
-                         : "<p class=\"note\">The first " + countText(kMaxRows) + " of " + countText(static_cast<std::int64_t>(all)) +
-                               "; report.json has them all.</p>\n";
 }
 
 std::string loopsSection(const std::vector<LoopFacts>& loops) {
@@ -257,7 +294,8 @@ std::string reportHtml(const MapReport& report) {
   html += mapSection(report, figures);
   html += report.frames.empty() ? "" : plotsSection(report);
   html += "<div class=\"columns\">\n" + recordingSection(report.recording) + trackingSection(report, figures) + volumeSection(report) +
-          planSection(report.plan) + optimisationSection(report.optimisation) + "</div>\n";
+          extensionSection(report, figures) + planSection(report.plan) + optimisationSection(report.optimisation) + "</div>\n";
+  html += changesSection(report.extension);
   html += loopsSection(report.loops) + skippedSection(report.recording.messages);
   return page(html);
 }

@@ -72,12 +72,13 @@ Json loopsJson(const MapReport& report, const ReportFigures& figures) {
   Json list = Json::array();
   for (const LoopFacts& loop : report.loops) {
     list.push_back({{"from_frame", loop.from_frame},
-                    {"to_frame", loop.to_frame},
+                    {loop.is_to_earlier_drive ? "to_earlier_frame" : "to_frame", loop.to_frame},
                     {"inliers", loop.inliers},
                     {"residual_px", loop.residual_px},
                     {"verdict", base::toString(loop.verdict)}});
   }
   return {{"accepted", figures.loops_accepted},
+          {"to_earlier_drives", figures.loops_to_earlier},
           {"down_weighted", figures.loops_down_weighted},
           {"rejected", figures.loops_rejected},
           {"largest_correction_m", figures.largest_correction_m},
@@ -120,6 +121,33 @@ Json planJson(const PlanFacts& plan) {
           {"surface_beyond_share", plan.beyond_share}};
 }
 
+Json drivesJson(const std::vector<DriveFacts>& drives) {
+  Json list = Json::array();
+  for (const DriveFacts& drive : drives) {
+    list.push_back({{"first_frame", drive.first_frame}, {"frames", drive.frames}, {"added_to_stamps_s", drive.added_to_stamps_s}});
+  }
+  return list;
+}
+
+Json extensionJson(const ExtensionFacts& extension) {
+  return {{"earlier_frames", extension.trajectory.size()},
+          {"earlier_keyframes", extension.keyframes},
+          {"keyframes_of_changes", extension.witnesses},
+          {"largest_move_m", extension.largest_move_m}};
+}
+
+Json changesJson(const std::vector<Change>& changes) {
+  Json list = Json::array();
+  for (const Change& change : changes) {
+    Json entry = {
+        {"kind", base::toString(change.kind)}, {"center_map_m", vectorJson(change.center_map)}, {"size_m", vectorJson(change.size_m)}};
+    entry["support_height_m"] = change.support_height_m ? Json(*change.support_height_m) : Json(nullptr);
+    entry["confidence"] = change.confidence;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 Json volumeJson(const VolumeFacts& volume, const ReportFigures& figures) {
   return {{"resolution_m", volume.resolution_m},       {"voxels_occupied", volume.voxels_occupied},
           {"voxels_free", volume.voxels_free},         {"cells_occupied", volume.cells_occupied},
@@ -160,6 +188,11 @@ std::string reportJson(const MapReport& report) {
   json["floor"] = floorJson(report.floor);
   if (report.plan) {
     json["floor_plan"] = planJson(*report.plan);
+  }
+  json["drives"] = drivesJson(report.drives);
+  if (report.extension) {
+    json["extension"] = extensionJson(*report.extension);
+    json["changes"] = changesJson(report.extension->changes);
   }
   json["map"] = volumeJson(report.volume, figures);
   json["frames"] = framesJson(report);

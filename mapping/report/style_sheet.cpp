@@ -38,7 +38,8 @@ section { background: var(--card); border: 1px solid var(--rule); border-radius:
 .legend i.dash { border-top-style: dashed; border-top-width: 2px; }
 .legend i.box { height: 10px; width: 10px; border: 0; border-radius: 2px; }
 .legend i.dot { border-radius: 50%; }
-.key-after { color: var(--after); } .key-before { color: var(--before); } .key-loop { color: var(--loop); } .key-plan { color: var(--found); } .key-refused { color: var(--soft); }
+.key-after { color: var(--after); } .key-before { color: var(--before); } .key-loop { color: var(--loop); } .key-earlier { color: var(--rule-strong); } .key-plan { color: var(--found); } .key-refused { color: var(--soft); }
+.key-new { background: var(--found); } .key-gone { background: var(--care); }
 .key-start { background: var(--good); } .key-end { background: var(--lost); }
 .key-tracked { background: var(--good); } .key-relocalised { background: var(--found); }
 .key-carried { background: var(--carried); } .key-lost { background: var(--lost); }
@@ -49,6 +50,8 @@ svg path, svg line { fill: none; vector-effect: non-scaling-stroke; stroke-linej
 .grid { image-rendering: pixelated; }
 .after { stroke: var(--after); stroke-width: 2.5; } .before { stroke: var(--before); stroke-width: 1.8; opacity: .85; }
 .plan { stroke: var(--found); stroke-width: 1.2; } .loop { stroke: var(--loop); stroke-width: 1.4; opacity: .75; } .refused { stroke: var(--soft); stroke-width: 1.2; stroke-dasharray: 4 4; }
+.earlier { stroke: var(--rule-strong); stroke-width: 1.8; }
+.change-new { fill: var(--found); fill-opacity: .25; stroke: var(--found); } .change-gone { fill: var(--care); fill-opacity: .25; stroke: var(--care); stroke-dasharray: 4 3; }
 .keyframes { stroke: var(--after); stroke-width: 4.5; }
 .start { fill: var(--good); stroke: var(--card); stroke-width: 2; } .end { fill: var(--lost); stroke: var(--card); stroke-width: 2; }
 .scale { stroke: var(--ink); stroke-width: 1.5; }

@@ -9,24 +9,11 @@
 #include "mapping/volume/depth_scan.h"
 #include "mapping/volume/mesh_extraction.h"
 #include "mapping/volume/octomap_files.h"
+#include "mapping/volume/view_batches.h"
 
 namespace oikos::mapping {
 
 namespace {
-
-/// Goes through the views a few at a time: `prepare` runs for each on any thread, then `use` for the whole batch in order.
-template <class Item>
-void forEachBatch(const std::vector<View>& views, const FusionInput& input, const std::function<Item(const View&)>& prepare,
-                  const std::function<void(std::vector<Item>&)>& use) {
-  const int batch = 2 * std::max(1, input.threads);
-  for (int begin = 0; begin < static_cast<int>(views.size()); begin += batch) {
-    std::vector<Item> items(static_cast<std::size_t>(std::min(batch, static_cast<int>(views.size()) - begin)));
-    base::parallelFor(static_cast<int>(items.size()), input.threads,
-                      [&](int i) { items[static_cast<std::size_t>(i)] = prepare(views[static_cast<std::size_t>(begin + i)]); });
-    use(items);
-    base::reportProgress(input.progress, {"fusing the map", begin + static_cast<int>(items.size()), static_cast<int>(views.size())});
-  }
-}
 
 /// A frame with what was made of it on some thread.
 struct PreparedView {
@@ -74,7 +61,7 @@ FloorResult findFloor(const std::vector<View>& views_world, const FusionInput& i
   FusionInput quiet = input;
   quiet.progress = {};
   forEachBatch<DepthView>(
-      spread(views_world, config.floor_views), quiet,
+      spread(views_world, config.floor_views), quiet, "",
       [&](const View& view) {
         return DepthView{view.T_a_camera, filterDepth(input.read(view.frame, false).depth_m, config.surface)};
       },
@@ -96,7 +83,7 @@ FusedMap fuseMap(const std::vector<View>& views_map, bool floor_known, const Fus
     VoxelCloud cloud(config.cloud);
     TsdfVolume distances(config.mesh, 1);
     forEachBatch<PreparedView>(
-        views_map, input,
+        views_map, input, "fusing the map",
         [&](const View& view) {
           PreparedView prepared{view.T_a_camera, input.read(view.frame, true), {}};
           prepared.surface = prepared.frame;

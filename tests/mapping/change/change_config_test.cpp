@@ -34,8 +34,10 @@ TEST(ChangeConfig, Rules) {
       {"min_size_m", "-1", "must be >= 0"},
       {"min_known_share", "2", "must be from 0 to 1"},
       {"max_changed_share", "-0.5", "must be from 0 to 1"},
-      {"threads", "0", "must be >= 1"},
   });
+  ChangeConfig config;
+  config.threads = 0;
+  EXPECT_EQ(config.validate(), std::vector<std::string>{"threads = 0: must be >= 1"});
 }
 
 }  // namespace

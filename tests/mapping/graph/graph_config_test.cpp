@@ -26,6 +26,8 @@ TEST(GraphConfig, FrontEnd) {
                                           {"loop_candidates", "0", ""},
                                           {"min_loop_votes", "0", "must be >= 1"},
                                           {"reuse_overlap", "-0.5", "must be from 0 to 1"},
+                                          {"settled_views", "0", "must be >= 1"},
+                                          {"settled_share", "1.5", "must be from 0 to 1"},
                                           {"kept_sightings", "29", "must be >= 30"},
                                           {"max_lost_frames", "-1", "must be >= 0"},
                                           {"max_lost_frames", "0", ""}});

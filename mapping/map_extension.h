@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/recording/trajectory.h"
+#include "mapping/extend/carried_frames.h"
+#include "mapping/extend/map_frames.h"
+#include "mapping/extend/revision.h"
+#include "mapping/graph/back_end.h"
+#include "mapping/graph/front_end.h"
+
+namespace oikos::mapping {
+
+/// What a drive has to do with the map that it extends, between optimisation and fusion. `drive` and `optimised` are those of both.
+class MapExtension {
+ public:
+  explicit MapExtension(const EarlierMap& earlier) : earlier_(earlier) {}
+
+  /// Whether the optimisation has found the drive's place: loops that agree lead into the earlier keyframes.
+  [[nodiscard]] static bool isPlaced(const FrontEndResult& drive, const BackEndResult& optimised);
+
+  struct Tools {
+    const FusionInput& input;
+    const OccupancyConfig& occupancy;
+    const FrontEndConfig& front_end;
+    const RevisionConfig& revision;
+  };
+  /// Compares the drive with the earlier keyframes, and makes keyframes of the frames that show changes. Frames that the loop did not join
+  /// are left out.
+  void revise(FrontEndResult& drive, BackEndResult& optimised, const Tools& tools);
+
+  [[nodiscard]] const GoneSpace& gone() const { return revision_.gone; }
+  [[nodiscard]] const std::vector<Change>& changes() const { return revision_.changes.changes; }
+  [[nodiscard]] int witnesses() const { return static_cast<int>(revision_.witnesses.size()); }
+
+  /// Of the earlier frames, moved along with their keyframes.
+  [[nodiscard]] recording::Trajectory trajectory(const KeyframeGraph& graph) const;
+  [[nodiscard]] recording::Trajectory baseTrajectory(const recording::Trajectory& T_map_camera) const;
+  [[nodiscard]] double largestMove_m(const KeyframeGraph& graph) const;
+
+ private:
+  [[nodiscard]] std::vector<MovedKeyframe> movedKeyframes(const KeyframeGraph& graph) const;
+
+  const EarlierMap& earlier_;
+  Revision revision_;
+};
+
+}  // namespace oikos::mapping
