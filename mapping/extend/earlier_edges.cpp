@@ -106,7 +106,7 @@ Edge makeEdge(int from, int to, const Eigen::Isometry3d& T_from_to, const Matrix
 
 }  // namespace
 
-std::vector<Edge> edgesBetweenKept(const KeyframeGraph& saved, const std::vector<int>& position) {
+std::vector<Edge> edgesBetweenKept(const KeyframeGraph& saved, const std::vector<int>& position, const std::vector<int>& drive) {
   Elimination elimination(saved);
   std::vector<int> kept;
   for (int node = 0; node < static_cast<int>(position.size()); ++node) {
@@ -124,11 +124,13 @@ std::vector<Edge> edgesBetweenKept(const KeyframeGraph& saved, const std::vector
     edges.push_back(makeEdge(from, to, between(saved, ends.first, ends.second), information));
     (void)parts.join(from, to);
   }
-  constexpr double kWeak = 1.0 / (0.03 * 0.03);  // 3 cm, 0.03 rad: a step of the wheels
+  // As weak as a step of the wheels is to the pose graph, 3 cm and 0.03 rad, behind its PoseGraphConfig::information_scale.
+  constexpr double kWeak = 3e4;
   for (int node = 1; node < static_cast<int>(kept.size()); ++node) {
-    if (parts.join(node - 1, node)) {
-      const Eigen::Isometry3d T = between(saved, kept[static_cast<std::size_t>(node) - 1], kept[static_cast<std::size_t>(node)]);
-      edges.push_back(makeEdge(node - 1, node, T, kWeak * Matrix6d::Identity()));
+    const auto n = static_cast<std::size_t>(node);
+    const bool is_apart = parts.join(node - 1, node);
+    if (is_apart || drive[n] == drive[n - 1]) {
+      edges.push_back(makeEdge(node - 1, node, between(saved, kept[n - 1], kept[n]), kWeak * Matrix6d::Identity()));
     }
   }
   return edges;

@@ -38,8 +38,8 @@ EarlierMap::EarlierMap(const fs::path& folder, const SavedMapConfig& config)
     base_trajectory_ = recording::readTrajectory(folder / "base_trajectory.txt");
   }
   checkFrames(folder / "trajectory.txt");
-  readEdges(folder / "graph.g2o");
   drives_ = readEarlierDrives(folder / "report.json", frameCount());
+  readEdges(folder / "graph.g2o");
 }
 
 void EarlierMap::checkFrames(const fs::path& file) const {
@@ -68,7 +68,12 @@ void EarlierMap::readEdges(const fs::path& file) {
     }
     position[id] = node;
   }
-  edges_ = edgesBetweenKept(saved, position);
+  std::vector<int> drive;
+  for (const Node& node : keyframes_.graph().nodes) {
+    const auto next = std::find_if(drives().begin(), drives().end(), [&](const DriveFacts& d) { return node.frame < d.first_frame; });
+    drive.push_back(static_cast<int>(next - drives().begin()));
+  }
+  edges_ = edgesBetweenKept(saved, position, drive);
 }
 
 /// Of each frame: the optimisation wants to know how a camera moved while its image was read out.

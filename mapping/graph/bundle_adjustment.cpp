@@ -13,6 +13,7 @@
 #include "core/camera/depth_noise.h"
 #include "mapping/graph/pose_block.h"
 #include "mapping/graph/projection_cost.h"
+#include "mapping/graph/relative_pose_cost.h"
 
 namespace oikos::mapping {
 
@@ -77,6 +78,7 @@ class Builder {
     } else {
       problem.SetParameterBlockConstant(&parameters_.readout_s);
     }
+    addSettled(problem);
     std::vector<ceres::ResidualBlockId> sightings;
     std::vector<char> used(graph_.landmarks.size(), 0);
     for (std::size_t n = 0; n < graph_.nodes.size(); ++n) {
@@ -112,6 +114,18 @@ class Builder {
       problem.AddParameterBlock(block, 7, &manifold_);
       if (anchored.insert(graph_.nodes[n].submap).second) {
         problem.SetParameterBlockConstant(block);
+      }
+    }
+  }
+
+  void addSettled(ceres::Problem& problem) {
+    geometry::Vector6d inverse_sigma;
+    inverse_sigma << Eigen::Vector3d::Constant(1.0 / config_.settled_sigma_m), Eigen::Vector3d::Constant(1.0 / config_.settled_sigma_rad);
+    for (const Edge& edge : graph_.edges) {
+      if (std::max(edge.from, edge.to) < graph_.settled) {
+        problem.AddResidualBlock(new RelativePoseCost(edge.T_from_to, inverse_sigma.asDiagonal()), nullptr,
+                                 parameters_.poses[static_cast<std::size_t>(edge.from)].data(),
+                                 parameters_.poses[static_cast<std::size_t>(edge.to)].data());
       }
     }
   }

@@ -17,6 +17,8 @@ struct BundleAdjustmentConfig {
   double host_depth_weight = 1.0;       ///< of the information of the host's reading
   double sighting_depth_weight = 0.05;  ///< of that of the other readings: they share errors with each other
   double readout_sigma_s = 0.02;        ///< prior of the read-out time, about 0
+  double settled_sigma_m = 0.03;        ///< of each motion between settled nodes that have an edge: holds what few sightings show
+  double settled_sigma_rad = 0.03;
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -27,6 +29,8 @@ struct BundleAdjustmentConfig {
     visitor("host_depth_weight", host_depth_weight);
     visitor("sighting_depth_weight", sighting_depth_weight);
     visitor("readout_sigma_s", readout_sigma_s);
+    visitor("settled_sigma_m", settled_sigma_m);
+    visitor("settled_sigma_rad", settled_sigma_rad);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
@@ -44,8 +48,8 @@ struct [[nodiscard]] BundleAdjustmentResult {
 };
 
 /// Global refinement: poses of all nodes (the first of each sub-map fixed) and inverse depths of all landmarks, from reprojection
-/// and depth readings (S312, S316, S354); with Readout::kRefined the rolling shutter's read-out time, too. Changes poses and
-/// inverse depths of `graph`. Single-threaded and deterministic.
+/// and depth readings (S312, S316, S354), and weakly from what an earlier run has settled; with Readout::kRefined the rolling shutter's
+/// read-out time, too. Changes poses and inverse depths of `graph`. Single-threaded and deterministic.
 BundleAdjustmentResult adjustBundle(KeyframeGraph& graph, const camera::PinholeCamera& camera, double readout_start_s, Readout readout,
                                     const BundleAdjustmentConfig& config);
 

@@ -47,6 +47,7 @@ std::vector<std::string> PoseGraphConfig::validate() const {
       .greater("cauchy_sigmas", cauchy_sigmas, 0.0)
       .greater("odometry_sigma_m", odometry_sigma_m, 0.0)
       .greater("odometry_sigma_rad", odometry_sigma_rad, 0.0)
+      .atLeast("odometry_drift", odometry_drift, 0.0)
       .messages();
 }
 
@@ -66,6 +67,8 @@ std::vector<std::string> BundleAdjustmentConfig::validate() const {
       .atLeast("host_depth_weight", host_depth_weight, 0.0)
       .atLeast("sighting_depth_weight", sighting_depth_weight, 0.0)
       .greater("readout_sigma_s", readout_sigma_s, 0.0)
+      .greater("settled_sigma_m", settled_sigma_m, 0.0)
+      .greater("settled_sigma_rad", settled_sigma_rad, 0.0)
       .greater("function_tolerance", function_tolerance, 0.0)
       .messages();
 }

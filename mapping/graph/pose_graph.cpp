@@ -26,9 +26,12 @@ geometry::Matrix6d squareRoot(const geometry::Matrix6d& information, const PoseG
   return values.cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-geometry::Matrix6d priorSquareRoot(const PoseGraphConfig& config) {
+/// On known ground two nodes may be far apart: then the wheels' drift counts.
+geometry::Matrix6d priorSquareRoot(const Eigen::Isometry3d& T_from_to, const PoseGraphConfig& config) {
+  const double sigma_m = std::max(config.odometry_sigma_m, config.odometry_drift * T_from_to.translation().norm());
+  const double sigma_rad = std::max(config.odometry_sigma_rad, config.odometry_drift * Eigen::AngleAxisd(T_from_to.linear()).angle());
   geometry::Vector6d inverse_sigma;
-  inverse_sigma << Eigen::Vector3d::Constant(1.0 / config.odometry_sigma_m), Eigen::Vector3d::Constant(1.0 / config.odometry_sigma_rad);
+  inverse_sigma << Eigen::Vector3d::Constant(1.0 / sigma_m), Eigen::Vector3d::Constant(1.0 / sigma_rad);
   return inverse_sigma.asDiagonal();
 }
 
@@ -130,7 +133,7 @@ PoseGraphResult optimisePoseGraph(KeyframeGraph& graph, const std::vector<char>&
     }
   }
   for (const MotionPrior& prior : priors) {
-    add(prior.from, prior.to, prior.T_from_to, priorSquareRoot(config), &kernel);
+    add(prior.from, prior.to, prior.T_from_to, priorSquareRoot(prior.T_from_to, config), &kernel);
   }
   if (problem.NumResidualBlocks() == 0) {
     return result;

@@ -15,6 +15,7 @@ struct PoseGraphConfig {
   double cauchy_sigmas = 3.0;       ///< robust kernel of loops
   double odometry_sigma_m = 0.03;   ///< of one step of the recorded odometry between two nodes
   double odometry_sigma_rad = 0.03;
+  double odometry_drift = 0.03;  ///< share of the way, and of the turn, from which on a step is worse than that
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -24,6 +25,7 @@ struct PoseGraphConfig {
     visitor("cauchy_sigmas", cauchy_sigmas);
     visitor("odometry_sigma_m", odometry_sigma_m);
     visitor("odometry_sigma_rad", odometry_sigma_rad);
+    visitor("odometry_drift", odometry_drift);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
 };

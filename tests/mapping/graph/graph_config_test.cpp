@@ -56,7 +56,8 @@ TEST(GraphConfig, PoseGraph) {
                                            {"max_information", "-1", "must be > 0"},
                                            {"cauchy_sigmas", "0", "must be > 0"},
                                            {"odometry_sigma_m", "0", "must be > 0"},
-                                           {"odometry_sigma_rad", "nan", "must be > 0"}});
+                                           {"odometry_sigma_rad", "nan", "must be > 0"},
+                                           {"odometry_drift", "-1", "must be >= 0"}});
 }
 
 TEST(GraphConfig, Covisibility) {
@@ -77,6 +78,8 @@ TEST(GraphConfig, BundleAdjustment) {
                                                   {"host_depth_weight", "0", ""},
                                                   {"sighting_depth_weight", "nan", "must be >= 0"},
                                                   {"readout_sigma_s", "0", "must be > 0"},
+                                                  {"settled_sigma_m", "0", "must be > 0"},
+                                                  {"settled_sigma_rad", "nan", "must be > 0"},
                                                   {"function_tolerance", "0", "must be > 0"}});
 }
 
