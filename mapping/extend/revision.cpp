@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <numbers>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "mapping/change/voxel_ball.h"
 #include "mapping/volume/view_batches.h"
 
 namespace oikos::mapping {
@@ -149,14 +152,69 @@ std::vector<int> chooseWitnesses(std::vector<ChangedVoxel> voxels, const std::ve
   return witnesses;
 }
 
-GoneSpace goneSpace(const std::vector<Change>& changes, double voxel_m) {
-  std::vector<VoxelKey> voxels;
+std::set<VoxelKey> goneVoxels(const std::vector<Change>& changes) {
+  std::set<VoxelKey> voxels;
   for (const Change& change : changes) {
     if (change.kind == ChangeKind::kGone) {
-      voxels.insert(voxels.end(), change.voxels.begin(), change.voxels.end());
+      voxels.insert(change.voxels.begin(), change.voxels.end());
     }
   }
-  return {voxel_m, std::move(voxels)};
+  return voxels;
+}
+
+/// Voxels beside these, and not among them, that the map has as occupied, be it ever so faintly.
+std::vector<VoxelKey> occupiedBeside(const std::set<VoxelKey>& voxels, const SeenSpace& space) {
+  std::set<VoxelKey> beside;
+  for (const VoxelKey key : voxels) {
+    for (const VoxelStep& step : voxelBall(1.75 * space.lattice().resolutionM(), space.lattice().resolutionM())) {
+      const VoxelKey neighbour = stepFrom(key, step.offset);
+      const auto log_odds = space.occupancy().findLogOdds(neighbour);
+      if (!voxels.contains(neighbour) && log_odds && space.occupancy().isOccupied(*log_odds)) {
+        beside.insert(neighbour);
+      }
+    }
+  }
+  return {beside.begin(), beside.end()};
+}
+
+/// Adds what stands clear by less beside what has surely gone: the foot of a chair is nearer to the floor than errors of map and pose, but a
+/// chair has its foot with it.
+void addFringe(const SeenSpace& space, const std::vector<ScanView>& views, const ChangeConfig& config, std::set<VoxelKey>& voxels) {
+  constexpr int kRings = 2;
+  constexpr double kFringeShare = 0.25;  // of the tolerance
+  for (int ring = 0; ring < kRings; ++ring) {
+    const std::vector<VoxelKey> beside = occupiedBeside(voxels, space);
+    std::vector<char> is_gone(beside.size(), 0);
+    base::parallelFor(static_cast<int>(beside.size()), config.threads, [&](int i) {
+      const auto b = static_cast<std::size_t>(i);
+      const Eigen::Vector3d center_map = space.lattice().center(beside[b]).cast<double>();
+      int through = 0;
+      int seen = 0;
+      for (const ScanView& view : views) {
+        const Sight sight = view.look(center_map, kFringeShare).sight;
+        through += sight == Sight::kThrough ? 1 : 0;
+        seen += sight != Sight::kNothing ? 1 : 0;
+      }
+      is_gone[b] = through > 0 && through >= config.min_agreement * seen ? 1 : 0;
+    });
+    for (std::size_t b = 0; b < beside.size(); ++b) {
+      if (is_gone[b] != 0) {
+        voxels.insert(beside[b]);
+      }
+    }
+  }
+}
+
+/// Of the scans that were compared and show a change.
+std::vector<ScanView> viewsOf(const std::vector<LocatedScan>& scans, const std::vector<std::vector<int>>& shown, const ChangeConfig& config,
+                              double voxel_m) {
+  std::vector<ScanView> views;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!shown[i].empty()) {
+      views.emplace_back(scans[i], config, voxel_m);
+    }
+  }
+  return views;
 }
 
 }  // namespace
@@ -189,8 +247,11 @@ Revision revise(const std::vector<View>& earlier, const std::vector<DriveView>& 
   revision.changes = findChanges(space, scans, change);
   const double voxel_m = space.lattice().resolutionM();
   const std::vector<ChangedVoxel> voxels = changedVoxels(revision.changes.changes, space.lattice());
-  revision.witnesses = chooseWitnesses(voxels, findShown(voxels, scans, revision.changes, change, voxel_m), drive, config);
-  revision.gone = goneSpace(revision.changes.changes, voxel_m);
+  const std::vector<std::vector<int>> shown = findShown(voxels, scans, revision.changes, change, voxel_m);
+  revision.witnesses = chooseWitnesses(voxels, shown, drive, config);
+  std::set<VoxelKey> gone = goneVoxels(revision.changes.changes);
+  addFringe(space, viewsOf(scans, shown, change, voxel_m), change, gone);
+  revision.gone = GoneSpace(voxel_m, {gone.begin(), gone.end()});
   return revision;
 }
 

@@ -19,7 +19,7 @@ struct DriveView {
 /// What a drive says about the map that it extends (S21, S222).
 struct Revision {
   ChangeResult changes;
-  GoneSpace gone;              ///< of all that has gone
+  GoneSpace gone;              ///< all that has gone, with what is beside it and less clear
   std::vector<int> witnesses;  ///< frames that show changes and become keyframes for it: the map is what its keyframes show
 };
 
