@@ -5,7 +5,10 @@
 #include <cstddef>
 #include <map>
 #include <set>
+#include <string>
 
+#include "core/base/config.h"
+#include "core/base/error.h"
 #include "mapping/odometry/corner_detector.h"
 
 namespace oikos::mapping {
@@ -66,6 +69,25 @@ void makeKeyframe(FrontEndResult& drive, int id, const camera::RgbdFrame& frame,
 }
 
 }  // namespace
+
+std::unique_ptr<const EarlierMap> openEarlierMap(const recording::Recording& recording, const MapConfig& config, const MapRun& run) {
+  if (run.extended.empty()) {
+    return nullptr;
+  }
+  if (config.kind != FrontEndKind::kLandmarks) {
+    throw base::Error(base::ErrorCode::kUsage, "kind = pairwise: a map is extended by its landmarks, which this front end has none of");
+  }
+  auto earlier = std::make_unique<const EarlierMap>(run.extended, SavedMapConfig{config.front_end.pyramid_levels, config.images_in_memory});
+  requireSameCamera(earlier->keyframes().camera(), recording.camera(), run.extended / "keyframes.sqlite");
+  const auto saved = base::loadConfig<MapConfig>({run.extended / "config.toml", {}});
+  if (saved.front_end.features.type != config.front_end.features.type) {
+    throw base::Error(base::ErrorCode::kUsage,
+                      "the map's features are " + std::string(base::toString(saved.front_end.features.type)) + ", not " +
+                          std::string(base::toString(config.front_end.features.type)) + ": places are not recognised by others",
+                      (run.extended / "config.toml").string());
+  }
+  return earlier;
+}
 
 bool MapExtension::isPlaced(const FrontEndResult& drive, const BackEndResult& optimised) {
   constexpr int kMinLoops = 2;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "core/recording/trajectory.h"
@@ -10,8 +10,14 @@
 #include "mapping/extend/revision.h"
 #include "mapping/graph/back_end.h"
 #include "mapping/graph/front_end.h"
+#include "mapping/mapper.h"
 
 namespace oikos::mapping {
+
+/// The map that the run extends; null if it extends none. Throws Error: kUsage if there is no such map, or if this configuration cannot go
+/// on with it, kInput if it was made with another camera or is damaged.
+[[nodiscard]] std::unique_ptr<const EarlierMap> openEarlierMap(const recording::Recording& recording, const MapConfig& config,
+                                                               const MapRun& run);
 
 /// What a drive has to do with the map that it extends, between optimisation and fusion. `drive` and `optimised` are those of both.
 class MapExtension {
@@ -27,8 +33,8 @@ class MapExtension {
     const FrontEndConfig& front_end;
     const RevisionConfig& revision;
   };
-  /// Compares the drive with the earlier keyframes, and makes keyframes of the frames that show changes. Frames that the loop did not join
-  /// are left out.
+  /// Compares the drive with the earlier keyframes, and makes keyframes of the frames that show changes. Frames of sub-maps that
+  /// no loop joined to it are left out.
   void revise(FrontEndResult& drive, BackEndResult& optimised, const Tools& tools);
 
   [[nodiscard]] const GoneSpace& gone() const { return revision_.gone; }

@@ -2,7 +2,6 @@
 #include "mapping/mapper.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 
@@ -16,6 +15,7 @@
 #include "mapping/graph/g2o_file.h"
 #include "mapping/keyframe_saver.h"
 #include "mapping/map_extension.h"
+#include "mapping/map_frame.h"
 #include "mapping/map_report.h"
 #include "mapping/odometry_priors.h"
 #include "mapping/report/timing.h"
@@ -25,44 +25,6 @@ namespace oikos::mapping {
 
 namespace {
 
-/// z and tilt from the floor; x, y and heading from the base at the first frame, where the mount is known.
-Eigen::Isometry3d mapFrame(const FloorResult& floor, const Eigen::Isometry3d& T_world_first_camera,
-                           const std::optional<Eigen::Isometry3d>& T_base_camera) {
-  if (!T_base_camera) {
-    return floor.T_map_world;
-  }
-  const Eigen::Isometry3d T_world_base = T_world_first_camera * T_base_camera->inverse();
-  if (floor.status != FloorStatus::kFound) {
-    return T_world_base.inverse();
-  }
-  const Eigen::Isometry3d T_floor_base = floor.T_map_world * T_world_base;
-  const Eigen::Vector3d forward = T_floor_base.linear().col(0);
-  Eigen::Isometry3d T_floor_map = Eigen::Isometry3d::Identity();
-  T_floor_map.linear() = Eigen::AngleAxisd(std::atan2(forward.y(), forward.x()), Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  T_floor_map.translation() = Eigen::Vector3d(T_floor_base.translation().x(), T_floor_base.translation().y(), 0.0);
-  return T_floor_map.inverse() * floor.T_map_world;
-}
-
-/// Null without a map to extend.
-std::unique_ptr<const EarlierMap> openEarlier(const recording::Recording& recording, const MapConfig& config, const MapRun& run) {
-  if (run.extended.empty()) {
-    return nullptr;
-  }
-  if (config.kind != FrontEndKind::kLandmarks) {
-    throw base::Error(base::ErrorCode::kUsage, "kind = pairwise: a map is extended by its landmarks, which this front end has none of");
-  }
-  auto earlier = std::make_unique<const EarlierMap>(run.extended, SavedMapConfig{config.front_end.pyramid_levels, config.images_in_memory});
-  requireSameCamera(earlier->keyframes().camera(), recording.camera(), run.extended / "keyframes.sqlite");
-  const auto saved = base::loadConfig<MapConfig>({run.extended / "config.toml", {}});
-  if (saved.front_end.features.type != config.front_end.features.type) {
-    throw base::Error(base::ErrorCode::kUsage,
-                      "the map's features are " + std::string(base::toString(saved.front_end.features.type)) + ", not " +
-                          std::string(base::toString(config.front_end.features.type)) + ": places are not recognised by others",
-                      (run.extended / "config.toml").string());
-  }
-  return earlier;
-}
-
 class Mapper {
  public:
   Mapper(const recording::Recording& recording, const MapConfig& config, const MapRun& run, const std::filesystem::path& folder)
@@ -71,7 +33,7 @@ class Mapper {
         run_(run),
         folder_(folder),
         T_base_camera_(run.T_base_camera ? run.T_base_camera : recording.T_base_camera()),
-        earlier_(openEarlier(recording, config, run)),
+        earlier_(openEarlierMap(recording, config, run)),
         frames_(recording, earlier_.get()),
         images_([this](int frame) { return frames_.read(frame, recording::Channels::kGray).gray; }, config.front_end.pyramid_levels,
                 config.images_in_memory) {}

@@ -2,8 +2,8 @@
 #include "mapping/extend/revision.h"
 
 #include <algorithm>
-#include <numbers>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -177,8 +177,8 @@ std::vector<VoxelKey> occupiedBeside(const std::set<VoxelKey>& voxels, const See
   return {beside.begin(), beside.end()};
 }
 
-/// Adds what stands clear by less beside what has surely gone: the foot of a chair is nearer to the floor than errors of map and pose, but a
-/// chair has its foot with it.
+/// Adds what stands clear by less beside what has surely gone: the foot of a chair is nearer to the floor than errors of map and pose, but
+/// a chair has its foot with it.
 void addFringe(const SeenSpace& space, const std::vector<ScanView>& views, const ChangeConfig& config, std::set<VoxelKey>& voxels) {
   constexpr int kRings = 2;
   constexpr double kFringeShare = 0.25;  // of the tolerance

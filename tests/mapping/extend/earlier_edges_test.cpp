@@ -100,8 +100,7 @@ TEST(EarlierEdges, TheWayOverALeftOutNodeHasTheSumOfItsErrors) {
     for (int s = 0; s < kSamples; ++s) {
       const Vector6d xi_first = root_first.matrixL() * randomTwist(random, 1.0);
       const Vector6d xi_second = root_second.matrixL() * randomTwist(random, 1.0);
-      Eigen::Isometry3d way =
-          between(graph, a, 1) * geometry::expSe3(xi_first) * between(graph, 1, b) * geometry::expSe3(xi_second);
+      Eigen::Isometry3d way = between(graph, a, 1) * geometry::expSe3(xi_first) * between(graph, 1, b) * geometry::expSe3(xi_second);
       way = backwards ? way.inverse() : way;
       const Vector6d xi = geometry::logSe3(between(graph, 0, 2).inverse() * way);
       sampled += xi * xi.transpose() / kSamples;

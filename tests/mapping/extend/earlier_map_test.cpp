@@ -83,7 +83,8 @@ TEST(EarlierMap, NoMapIsWrongUsage) {
 
 TEST(EarlierMap, ADamagedStoreIsNamed) {
   const Copy copy;
-  copy.write("keyframes.sqlite", "this is no database, but it is long enough to be looked at as if it were one: it has more than 100 bytes");
+  copy.write("keyframes.sqlite",
+             "this is no database, but it is long enough to be looked at as if it were one: it has more than 100 bytes");
   copy.expectRefused(base::ErrorCode::kInput, {"keyframes.sqlite"});
   const Copy cut;
   cut.write("keyframes.sqlite", cut.read("keyframes.sqlite").substr(0, 20000));
@@ -119,7 +120,8 @@ TEST(EarlierMap, AReportThatDoesNotFitIsRefused) {
   withDrives(too_few, {{{"first_frame", 0}, {"frames", 39}, {"added_to_stamps_s", 0}}});
   too_few.expectRefused(base::ErrorCode::kInput, {"report.json", "39 frames", "has 40"});
   const Copy gap;
-  withDrives(gap, {{{"first_frame", 0}, {"frames", 20}, {"added_to_stamps_s", 0}}, {{"first_frame", 21}, {"frames", 19}, {"added_to_stamps_s", 1}}});
+  withDrives(gap, {{{"first_frame", 0}, {"frames", 20}, {"added_to_stamps_s", 0}},
+                   {{"first_frame", 21}, {"frames", 19}, {"added_to_stamps_s", 1}}});
   gap.expectRefused(base::ErrorCode::kInput, {"report.json", "from 21 on, 20 expected"});
   const Copy no_number;
   withDrives(no_number, {{{"first_frame", "x"}, {"frames", 40}, {"added_to_stamps_s", 0}}});

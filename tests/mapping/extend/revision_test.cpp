@@ -42,9 +42,9 @@ struct TwoDrives {
     const camera::PinholeCamera camera = roomCamera();
     const auto read = [&](int frame, bool) {
       const bool is_now = frame >= kEarlier;
-      camera::RgbdFrame image =
-          test::AnalyticRoom(kWalls, is_now ? now : before)
-              .render(camera, is_now ? poses_now[static_cast<std::size_t>(frame - kEarlier)] : poses_before[static_cast<std::size_t>(frame)]);
+      camera::RgbdFrame image = test::AnalyticRoom(kWalls, is_now ? now : before)
+                                    .render(camera, is_now ? poses_now[static_cast<std::size_t>(frame - kEarlier)]
+                                                           : poses_before[static_cast<std::size_t>(frame)]);
       image.index = frame;
       return image;
     };
@@ -76,10 +76,10 @@ TEST(Revision, AMovedChestHasGoneHereAndIsNewThere) {
   const TwoDrives drives{{kTable, kChest}, {kTable, kMovedChest}};
   const Revision revision = drives.revise();
   ASSERT_EQ(revision.changes.changes.size(), 2U);
-  EXPECT_TRUE(revision.gone.contains({-1.51, -0.1, 0.4}));     // its front
-  EXPECT_FALSE(revision.gone.contains({-0.29, -1.7, 0.4}));    // where it is now
-  EXPECT_FALSE(revision.gone.contains({1.51, 0.0, 0.4}));      // the table
-  EXPECT_FALSE(revision.gone.contains({-1.9, -0.1, -0.01}));   // the floor under it
+  EXPECT_TRUE(revision.gone.contains({-1.51, -0.1, 0.4}));    // its front
+  EXPECT_FALSE(revision.gone.contains({-0.29, -1.7, 0.4}));   // where it is now
+  EXPECT_FALSE(revision.gone.contains({1.51, 0.0, 0.4}));     // the table
+  EXPECT_FALSE(revision.gone.contains({-1.9, -0.1, -0.01}));  // the floor under it
   ASSERT_FALSE(revision.witnesses.empty());
   EXPECT_LE(revision.witnesses.size(), 12U);  // of 20 views
   EXPECT_TRUE(std::is_sorted(revision.witnesses.begin(), revision.witnesses.end()));
