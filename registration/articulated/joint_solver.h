@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Base and joints brought onto a scan, one after the other or all together. Included by this folder's sources and tests only.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/geometry/se3.h"
+#include "registration/articulated/joint_profile.h"
+#include "registration/articulated/joint_tree.h"
+#include "registration/articulated/link_layers.h"
+#include "registration/articulated/pixel_mixture.h"
+#include "registration/edge_pairs.h"
+#include "registration/scan.h"
+
+namespace oikos::registration {
+
+struct JointSolverConfig {
+  double base_sigma_m = 0.03;      ///< of where the base is believed to stand, in x and in y,
+  double base_sigma_deg = 2.0;     ///< and of its yaw
+  double upright_sigma_m = 0.005;  ///< of its height before the camera,
+  double upright_sigma_deg = 0.3;  ///< and of its tilt
+  double axis_sigma_m = 0.004;     ///< of a joint's origin in each direction, what it carries included
+  double axis_sigma_deg = 0.5;     ///< and of its direction
+  double surface_sigma_m = 0.005;  ///< of the base's surfaces, each as a whole
+  double wide_sigma_m = 0.025;     ///< of surfaces, in the first round
+  double tempering = 0.1;          ///< of a reading's information: its neighbours repeat it
+  int rounds = 3;                  ///< pictures that are taken, each followed by a step
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("base_sigma_m", base_sigma_m);
+    visitor("base_sigma_deg", base_sigma_deg);
+    visitor("upright_sigma_m", upright_sigma_m);
+    visitor("upright_sigma_deg", upright_sigma_deg);
+    visitor("axis_sigma_m", axis_sigma_m);
+    visitor("axis_sigma_deg", axis_sigma_deg);
+    visitor("surface_sigma_m", surface_sigma_m);
+    visitor("wide_sigma_m", wide_sigma_m);
+    visitor("tempering", tempering);
+    visitor("rounds", rounds);
+  }
+  [[nodiscard]] std::vector<std::string> validate() const;
+};
+
+/// The estimate in progress.
+struct JointEstimates {
+  Standing standing;
+  std::vector<Eigen::Vector3d> shift_map;  ///< by link: where its joint is, from where the model has it
+};
+
+/// What became of the pixels that a link shows.
+struct LinkCounts {
+  int shown = 0;
+  int read = 0;      ///< of these, with a reading
+  int agreeing = 0;  ///< of these, within three deviations and facing as the link
+  int nearer = 0;    ///< something stands before it
+  int behind = 0;    ///< it is not there
+};
+
+struct SolverReport {
+  geometry::Matrix6d base_covariance = geometry::Matrix6d::Zero();  ///< of the right perturbation of T_map_model (m, rad)
+  std::vector<double> variances;                                    ///< by link: of its joint's value (rad^2 or m^2); the base's is 0
+  std::vector<double> shared_variances;                             ///< of these, what another frame would not change: the axis
+  std::vector<LinkCounts> counts;                                   ///< by link
+  double rms_m = 0.0;                                               ///< of what agrees, from the surfaces
+};
+
+/// Gauss-Newton on point-to-plane distances and outlines, each pixel weighted with how likely it shows what the model has there
+/// (PixelMixture). Beside the base (six freedoms, held by their prior) and the joints' values (held by their limits), the place of each
+/// joint is a little in doubt: a door that stands out evenly by some millimetres is no door that is ajar. Not thread-safe.
+class JointSolver {
+ public:
+  /// All arguments but the poses are kept by reference.
+  JointSolver(const JointTree& tree, WholeModel& model, const Scan& scan, const PixelMixture& mixture, const JointSolverConfig& config,
+              const Eigen::Isometry3d& T_map_camera, const Eigen::Isometry3d& T_map_prior);
+
+  struct Freedom {
+    bool base = false;
+    std::vector<int> links;  ///< whose joints may move
+  };
+  /// Returns how many steps were taken.
+  int solve(JointEstimates& estimates, const Freedom& freedom);
+  /// Uncertainty and counts where `estimates` stand, base and all joints being free.
+  [[nodiscard]] SolverReport report(const JointEstimates& estimates, const Freedom& freedom);
+
+ private:
+  struct Equations;
+  void look(const JointEstimates& estimates, double sigma_m, Equations& equations);
+  void addSurfaces(const render::View& view, double sigma_m, Equations& equations) const;
+  void addOutlines(const render::View& view, double sigma_m, Equations& equations) const;
+  void addPriors(const JointEstimates& estimates, Equations& equations) const;
+  [[nodiscard]] Eigen::VectorXd stepOf(const Equations& equations, const JointEstimates& estimates, const Freedom& freedom) const;
+  void apply(const Eigen::VectorXd& step, JointEstimates& estimates) const;
+  [[nodiscard]] std::vector<int> freeIndices(const Freedom& freedom) const;
+  [[nodiscard]] Eigen::Isometry3d T_map_middle(const JointEstimates& estimates) const;
+
+  const JointTree& tree_;
+  WholeModel& model_;
+  const Scan& scan_;
+  const PixelMixture& mixture_;
+  const JointSolverConfig& config_;
+  Eigen::Isometry3d T_map_camera_;
+  Eigen::Isometry3d T_map_prior_;
+  Eigen::Vector3d pivot_model_;
+  ScanEdges edges_;
+};
+
+}  // namespace oikos::registration
