@@ -109,9 +109,11 @@ int main(int argc, char** argv) {
   app.add_option("--occluded", settings.occluded, "share of the piece's width that a person hides");
   app.add_option("--order", order, "'part after part' or 'together'");
   app.add_option("--seed", settings.seed, "of the trials");
-  app.add_option("--tempering", settings.config.solver.tempering, "");
-  app.add_option("--profile-tempering", settings.config.profile_tempering, "");
-  app.add_option("--rounds", settings.config.solver.rounds, "");
+  app.add_option("--tempering", settings.config.solver.tempering, "of a reading's information");
+  app.add_option("--most-readings", settings.config.solver.most_readings, "that a link counts for");
+  app.add_option("--base-sigma-m", settings.config.solver.base_sigma_m, "how well the piece's place is believed to be known");
+  app.add_option("--base-sigma-deg", settings.config.solver.base_sigma_deg, "and its yaw");
+  app.add_option("--rounds", settings.config.solver.rounds, "of solving");
   app.add_flag("--verbose", verbose, "a line for each joint");
   CLI11_PARSE(app, argc, argv);
   settings.sensor = *base::findEnum<camera::DepthSensorKind>(sensor);

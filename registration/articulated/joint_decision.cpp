@@ -35,6 +35,14 @@ double shareNear(const JointEvidence& evidence, double window) {
   return near > 0.0 ? near / (near + far) : 0.0;
 }
 
+/// Whether what solving has led to explains the image about as well as the best of the values that were merely looked at.
+bool isSummit(const JointEvidence& evidence) {
+  constexpr double kLess = 2.0;
+  constexpr double kLessShare = 0.5;
+  const double best = *std::max_element(evidence.log_likelihood.begin(), evidence.log_likelihood.end());
+  return evidence.has_peak && evidence.peak_log_likelihood >= best - std::max(kLess, kLessShare * std::abs(best));
+}
+
 /// Runs of neighbouring values that are likely, and how much of the range they fill.
 struct LikelyRuns {
   int count = 0;
@@ -76,10 +84,11 @@ JointDecision decide(const JointEvidence& evidence, const JointSight& sight, con
   if (!sight.is_ever_seen || evidence.values.empty()) {
     return decision;
   }
-  const double window = evidence.is_turn ? config.window_deg * kDegree : config.window_m;
+  const double stride = evidence.values.size() > 1 ? evidence.values[1] - evidence.values[0] : 0.0;
+  const double window = std::max(stride, evidence.is_turn ? config.window_deg * kDegree : config.window_m);
   const double max_sigma = evidence.is_turn ? config.max_sigma_deg * kDegree : config.max_sigma_m;
   decision.confidence = shareNear(evidence, window);
-  const bool is_sharp = evidence.has_peak && decision.confidence >= config.min_confidence && std::sqrt(evidence.variance) <= max_sigma;
+  const bool is_sharp = isSummit(evidence) && decision.confidence >= config.min_confidence && std::sqrt(evidence.variance) <= max_sigma;
   const bool is_shown =
       sight.agreeing >= config.min_agreeing && sight.agreeing >= config.min_share * static_cast<double>(sight.agreeing + sight.behind);
   const bool is_hidden = sight.read == 0 || sight.nearer > config.max_hidden * sight.read;

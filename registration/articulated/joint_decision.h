@@ -48,11 +48,11 @@ struct JointSight {
 };
 
 struct JointDecisionConfig {
-  double window_deg = 5.0;       ///< values nearer than this to the best one count as the same,
+  double window_deg = 5.0;       ///< values nearer than this to the best one, or next to it, count as the same,
   double window_m = 0.02;        ///< and so do these
   double min_confidence = 0.99;  ///< of the posterior, within the window
   double max_sigma_deg = 3.0;    ///< of a value that was found
-  double max_sigma_m = 0.015;
+  double max_sigma_m = 0.018;
   int min_agreeing = 8;      ///< pixels of the scan that show the part
   double min_share = 0.4;    ///< of the readings of it or behind it, those of it
   double max_hidden = 0.85;  ///< share of its readings that may lie before it

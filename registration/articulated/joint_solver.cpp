@@ -22,6 +22,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMinIncidenceCos = 0.17;  // readings at a more grazing angle are hardly any
+constexpr double kOfRim = 0.05;            // of a reading's weight
 constexpr int kBaseSize = 6;
 constexpr int kLinkSize = 4;  // its joint's value, and the three coordinates of the joint's place
 
@@ -35,7 +36,20 @@ struct LinkSums {
   Eigen::MatrixXd H;         ///< lower triangle
   Eigen::VectorXd g;
   Eigen::VectorXd J;
+  double readings = 0.0;  ///< weighted with how likely they are of the link
 };
+
+/// A sensor's matching window mixes a narrow rim with what lies around it.
+bool isInside(const render::View& view, int u, int v) {
+  constexpr float kSameFace = 0.9F;
+  const int part = view.part.at<int>(v, u);
+  const auto& normal = view.normal_camera.at<cv::Vec3f>(v, u);
+  const auto continues = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < view.part.cols && y < view.part.rows && view.part.at<int>(y, x) == part &&
+           view.normal_camera.at<cv::Vec3f>(y, x).dot(normal) > kSameFace;
+  };
+  return continues(u - 1, v) && continues(u + 1, v) && continues(u, v - 1) && continues(u, v + 1);
+}
 
 Eigen::Vector3d middleOf(const JointTree& tree) {
   const std::vector<Eigen::Isometry3d> T_model_part = tree.partPoses(std::vector<double>(tree.model().joints.size(), 0.0));
@@ -63,6 +77,7 @@ std::vector<std::string> JointSolverConfig::validate() const {
       .greater("surface_sigma_m", surface_sigma_m, 0.0)
       .atLeast("wide_sigma_m", wide_sigma_m, surface_sigma_m)
       .require(tempering > 0.0 && tempering <= 1.0, "tempering", tempering, "must be > 0 and <= 1")
+      .greater("most_readings", most_readings, 0.0)
       .atLeast("rounds", rounds, 1)
       .messages();
 }
@@ -108,12 +123,21 @@ struct JointSolver::Equations {
     sum.g += weight * residual_m * sum.J;
   }
 
-  void gather() {
-    for (const LinkSums& sum : links) {
+  /// Takes a link's readings for so many at most: neighbours repeat each other, and so do the errors of model and sensor.
+  void gather(double tempering, double most_readings, const std::vector<char>& counts_in) {
+    for (std::size_t link = 0; link < links.size(); ++link) {
+      if (counts_in[link] == 0) {
+        continue;
+      }
+      const LinkSums& sum = links[link];
+      const double share = std::min(tempering, most_readings / std::max(1.0, sum.readings));
+      if (link == 0) {
+        base_share = share;
+      }
       for (std::size_t a = 0; a < sum.indices.size(); ++a) {
-        g[sum.indices[a]] += sum.g[static_cast<Eigen::Index>(a)];
+        g[sum.indices[a]] += share * sum.g[static_cast<Eigen::Index>(a)];
         for (std::size_t b = 0; b <= a; ++b) {
-          const double value = sum.H(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+          const double value = share * sum.H(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
           H(sum.indices[a], sum.indices[b]) += value;
           if (a != b) {
             H(sum.indices[b], sum.indices[a]) += value;
@@ -128,6 +152,7 @@ struct JointSolver::Equations {
   std::vector<LinkSums> links;
   std::vector<LinkCounts> counts;
   std::map<std::array<int, 4>, geometry::Vector6d> shifts;  ///< by surface of the base: what its deviation does to g
+  double base_share = 0.0;                                  ///< that the base's weights were taken with
   double squares_m = 0.0;
   int agreeing = 0;
   Eigen::MatrixXd H;
@@ -146,7 +171,7 @@ JointSolver::JointSolver(const JointTree& tree, WholeModel& model, const Scan& s
       pivot_model_(middleOf(tree)),
       edges_(scan) {}
 
-void JointSolver::look(const JointEstimates& estimates, double sigma_m, Equations& equations) {
+void JointSolver::look(const JointEstimates& estimates, const Freedom& freedom, double sigma_m, Equations& equations) {
   std::vector<Eigen::Isometry3d> T_map_part = tree_.partPoses(estimates.standing.joint_values);
   for (std::size_t part = 0; part < T_map_part.size(); ++part) {
     T_map_part[part] = estimates.standing.T_map_model * T_map_part[part];
@@ -163,8 +188,21 @@ void JointSolver::look(const JointEstimates& estimates, double sigma_m, Equation
   const render::View view = model_.look(T_map_camera_, scan_.camera);
   addSurfaces(view, sigma_m, equations);
   addOutlines(view, sigma_m, equations);
-  equations.gather();
+  equations.gather(config_.tempering, config_.most_readings, countingLinks(freedom));
   addPriors(estimates, equations);
+}
+
+/// While the base moves, a part speaks only if its joints may give way.
+std::vector<char> JointSolver::countingLinks(const Freedom& freedom) const {
+  std::vector<char> counts(tree_.links().size(), 1);
+  for (std::size_t link = 0; freedom.base && link < counts.size(); ++link) {
+    const std::vector<int>& chain = tree_.links()[link].chain;
+    const bool gives_way = std::all_of(chain.begin(), chain.end(), [&](int mover) {
+      return std::find(freedom.links.begin(), freedom.links.end(), mover) != freedom.links.end();
+    });
+    counts[link] = gives_way ? 1 : 0;
+  }
+  return counts;
 }
 
 void JointSolver::addSurfaces(const render::View& view, double sigma_m, Equations& equations) const {
@@ -200,13 +238,15 @@ void JointSolver::addSurfaces(const render::View& view, double sigma_m, Equation
       counts.nearer += !is_near && reading_m < depth_m ? 1 : 0;
       counts.behind += !is_near && reading_m > depth_m ? 1 : 0;
       const double variance = noise_m * noise_m + config_.surface_sigma_m * config_.surface_sigma_m;
-      const double weight = config_.tempering * mixture_.shareOfSurface(reading_m, surface) / variance;
+      const double share = surface.faces ? mixture_.shareOfSurface(reading_m, surface) * (isInside(view, u, v) ? 1.0 : kOfRim) : 0.0;
+      const double weight = share / variance;
       if (weight <= 0.0) {
         continue;
       }
       const Eigen::Vector3d normal_map = T_map_camera_.linear() * normal_camera;
       const Eigen::Vector3d model_map = T_map_camera_ * (depth_m * ray);
       LinkSums& sum = equations.links[static_cast<std::size_t>(link)];
+      sum.readings += share;
       equations.add(tree_.links()[static_cast<std::size_t>(link)], sum, model_map, normal_map, residual_m, weight);
       if (is_near && surface.faces) {
         equations.squares_m += residual_m * residual_m;
@@ -231,7 +271,7 @@ void JointSolver::addOutlines(const render::View& view, double sigma_m, Equation
     const double residual_m = pair.residual_m();
     const double width_sq = variance + sigma_m * sigma_m;
     const double share = 1.0 / (1.0 + residual_m * residual_m / width_sq);
-    const double weight = config_.tempering * share * share / variance;
+    const double weight = share * share / variance;
     LinkSums& sum = equations.links[static_cast<std::size_t>(link)];
     equations.add(tree_.links()[static_cast<std::size_t>(link)], sum, pair.model_map, pair.normal_map, residual_m, weight);
     if (link == 0) {
@@ -324,7 +364,7 @@ int JointSolver::solve(JointEstimates& estimates, const Freedom& freedom) {
     const double share = config_.rounds > 1 ? static_cast<double>(round) / (config_.rounds - 1) : 1.0;
     const double sigma_m = config_.wide_sigma_m * std::pow(config_.surface_sigma_m / config_.wide_sigma_m, share);
     Equations equations(tree_, estimates.standing, estimates.standing.T_map_model * pivot_model_);
-    look(estimates, sigma_m, equations);
+    look(estimates, freedom, sigma_m, equations);
     const Eigen::VectorXd step = stepOf(equations, estimates, freedom);
     apply(step, estimates);
     if (share == 1.0 && step.lpNorm<Eigen::Infinity>() < kSettled) {
@@ -336,14 +376,14 @@ int JointSolver::solve(JointEstimates& estimates, const Freedom& freedom) {
 
 SolverReport JointSolver::report(const JointEstimates& estimates, const Freedom& freedom) {
   Equations equations(tree_, estimates.standing, estimates.standing.T_map_model * pivot_model_);
-  look(estimates, config_.surface_sigma_m, equations);
+  look(estimates, freedom, config_.surface_sigma_m, equations);
   const std::vector<int> free = freeIndices(freedom);
   const auto count = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd(equations.H(free, free)).ldlt().solve(Eigen::MatrixXd::Identity(count, count));
   if (freedom.base) {
     geometry::Matrix6d surfaces = geometry::Matrix6d::Zero();
     for (const auto& [surface, shift] : equations.shifts) {
-      surfaces += shift * shift.transpose();
+      surfaces += equations.base_share * equations.base_share * shift * shift.transpose();
     }
     const Eigen::MatrixXd gain = covariance.leftCols<kBaseSize>();
     covariance += gain * surfaces * gain.transpose();

@@ -17,15 +17,16 @@
 namespace oikos::registration {
 
 struct JointSolverConfig {
-  double base_sigma_m = 0.03;      ///< of where the base is believed to stand, in x and in y,
-  double base_sigma_deg = 2.0;     ///< and of its yaw
+  double base_sigma_m = 0.015;     ///< of where the base is believed to stand, in x and in y,
+  double base_sigma_deg = 1.0;     ///< and of its yaw
   double upright_sigma_m = 0.005;  ///< of its height before the camera,
   double upright_sigma_deg = 0.3;  ///< and of its tilt
   double axis_sigma_m = 0.004;     ///< of a joint's origin in each direction, what it carries included
   double axis_sigma_deg = 0.5;     ///< and of its direction
   double surface_sigma_m = 0.005;  ///< of the base's surfaces, each as a whole
   double wide_sigma_m = 0.025;     ///< of surfaces, in the first round
-  double tempering = 0.1;          ///< of a reading's information: its neighbours repeat it
+  double tempering = 0.2;          ///< of a reading's information: its neighbours repeat it
+  double most_readings = 150.0;    ///< that a link counts for, whatever it shows
   int rounds = 3;                  ///< pictures that are taken, each followed by a step
 
   template <class Visitor>
@@ -39,6 +40,7 @@ struct JointSolverConfig {
     visitor("surface_sigma_m", surface_sigma_m);
     visitor("wide_sigma_m", wide_sigma_m);
     visitor("tempering", tempering);
+    visitor("most_readings", most_readings);
     visitor("rounds", rounds);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
@@ -87,7 +89,8 @@ class JointSolver {
 
  private:
   struct Equations;
-  void look(const JointEstimates& estimates, double sigma_m, Equations& equations);
+  void look(const JointEstimates& estimates, const Freedom& freedom, double sigma_m, Equations& equations);
+  [[nodiscard]] std::vector<char> countingLinks(const Freedom& freedom) const;
   void addSurfaces(const render::View& view, double sigma_m, Equations& equations) const;
   void addOutlines(const render::View& view, double sigma_m, Equations& equations) const;
   void addPriors(const JointEstimates& estimates, Equations& equations) const;

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// Optimal partitioning (Jackson et al., "An algorithm for optimal partitioning of data on an interval", 2005, doi:10.1109/LSP.2001.838216)
+// of the generalised likelihood ratio: a span costs what its best single value leaves unexplained, and a change has its price. The
+// likelihood of each image is a density over the joint's whole range, so the best value of a span is looked up, not searched. Images from
+// one place repeat each other's errors: n of them count for n / (1 + (n - 1) * repeated).
+#include "registration/articulated/joint_fusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "core/base/config_rules.h"
+#include "core/base/error.h"
+
+namespace oikos::registration {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// The joint's range, cut finely.
+struct Bins {
+  double first = 0.0;
+  double width = 0.0;
+  std::size_t count = 0;
+  [[nodiscard]] double at(std::size_t i) const { return first + width * static_cast<double>(i); }
+};
+
+Bins binsOf(const JointEvidence& evidence, const JointFusionConfig& config) {
+  const double range = evidence.values.back() - evidence.values.front();
+  const double width = evidence.is_turn ? config.bin_deg * kDegree : config.bin_m;
+  const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(range / width)));
+  return {evidence.values.front(), range / static_cast<double>(steps), steps + 1};
+}
+
+/// The profile between its values, not normalised.
+std::vector<double> profileOver(const Bins& bins, const JointEvidence& evidence) {
+  const double best = *std::max_element(evidence.log_likelihood.begin(), evidence.log_likelihood.end());
+  const double stride = evidence.values[1] - evidence.values[0];
+  std::vector<double> density(bins.count);
+  for (std::size_t i = 0; i < bins.count; ++i) {
+    const double place = std::clamp((bins.at(i) - evidence.values.front()) / stride, 0.0, static_cast<double>(evidence.values.size() - 1));
+    const auto below = std::min(static_cast<std::size_t>(place), evidence.values.size() - 2);
+    const double share = place - static_cast<double>(below);
+    const double log_likelihood = (1.0 - share) * evidence.log_likelihood[below] + share * evidence.log_likelihood[below + 1];
+    density[i] = std::exp(log_likelihood - best);
+  }
+  return density;
+}
+
+void normalise(std::vector<double>& density) {
+  double sum = 0.0;
+  for (const double value : density) {
+    sum += value;
+  }
+  for (double& value : density) {
+    value /= sum;
+  }
+}
+
+/// Log of the chance of each bin, as one image has it; misreadings may be anywhere.
+std::vector<double> logChances(const Bins& bins, const JointSighting& sighting, const JointFusionConfig& config) {
+  const JointEvidence& evidence = sighting.evidence;
+  std::vector<double> chance = profileOver(bins, evidence);
+  normalise(chance);
+  const bool is_found = sighting.status == JointStatus::kFound;
+  if (is_found) {
+    const double variance = evidence.variance + bins.width * bins.width / 12.0;
+    std::vector<double> peak(bins.count);
+    for (std::size_t i = 0; i < bins.count; ++i) {
+      const double off = bins.at(i) - evidence.value;
+      peak[i] = std::exp(-0.5 * off * off / variance);
+    }
+    normalise(peak);
+    for (std::size_t i = 0; i < bins.count; ++i) {
+      chance[i] = sighting.confidence * peak[i] + (1.0 - sighting.confidence) * chance[i];
+    }
+  }
+  const double misread = is_found ? config.misread : config.misread_unsure;
+  for (double& value : chance) {
+    value = std::log((1.0 - misread) * value + misread / static_cast<double>(bins.count));
+  }
+  return chance;
+}
+
+/// Sums up images one after the other, those from one place for less than they are.
+class SpanSum {
+ public:
+  SpanSum(std::size_t bins, double repeated) : total_(bins, 0.0), repeated_(repeated) {}
+
+  void add(int view, const std::vector<double>& log_chances) {
+    View& seen = views_.try_emplace(view, View{0, std::vector<double>(total_.size(), 0.0)}).first->second;
+    const double before = weightOf(seen.count);
+    ++seen.count;
+    const double now = weightOf(seen.count);
+    for (std::size_t i = 0; i < total_.size(); ++i) {
+      total_[i] += (now - before) * seen.sum[i] + now * log_chances[i];
+      seen.sum[i] += log_chances[i];
+    }
+  }
+
+  /// By bin.
+  [[nodiscard]] const std::vector<double>& total() const { return total_; }
+  /// Of the best bin, over what images that say nothing would give.
+  [[nodiscard]] double best() const { return *std::max_element(total_.begin(), total_.end()); }
+
+ private:
+  struct View {
+    int count = 0;
+    std::vector<double> sum;
+  };
+  [[nodiscard]] double weightOf(int count) const { return count == 0 ? 0.0 : 1.0 / (1.0 + (count - 1) * repeated_); }
+
+  std::vector<double> total_;
+  double repeated_;
+  std::map<int, View> views_;
+};
+
+/// By sighting, a number that those from the same place share.
+std::vector<int> viewsOf(const std::vector<JointSighting>& sightings, const JointFusionConfig& config) {
+  std::vector<Eigen::Isometry3d> places;
+  std::vector<int> views;
+  for (const JointSighting& sighting : sightings) {
+    const auto place = std::find_if(places.begin(), places.end(), [&](const Eigen::Isometry3d& T_map_place) {
+      const Eigen::Isometry3d T_place_camera = T_map_place.inverse() * sighting.T_map_camera;
+      return T_place_camera.translation().norm() < config.same_view_m &&
+             Eigen::AngleAxisd(T_place_camera.linear()).angle() < config.same_view_deg * kDegree;
+    });
+    views.push_back(static_cast<int>(place - places.begin()));
+    if (place == places.end()) {
+      places.push_back(sighting.T_map_camera);
+    }
+  }
+  return views;
+}
+
+/// Where spans begin, the first at 0.
+std::vector<std::size_t> bestSplits(const std::vector<std::vector<double>>& log_chances, const std::vector<int>& views,
+                                    const JointFusionConfig& config) {
+  const std::size_t count = log_chances.size();
+  std::vector<double> best(count + 1, -std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> begin_of_last(count + 1, 0);
+  best[0] = config.change_cost;  // the first span follows no change
+  for (std::size_t begin = 0; begin < count; ++begin) {
+    SpanSum sum(log_chances[begin].size(), config.repeated);
+    for (std::size_t end = begin + 1; end <= count; ++end) {
+      sum.add(views[end - 1], log_chances[end - 1]);
+      const double score = best[begin] - config.change_cost + sum.best();
+      if (score > best[end]) {
+        best[end] = score;
+        begin_of_last[end] = begin;
+      }
+    }
+  }
+  std::vector<std::size_t> splits;
+  for (std::size_t end = count; end > 0; end = begin_of_last[end]) {
+    splits.insert(splits.begin(), begin_of_last[end]);
+  }
+  return splits;
+}
+
+/// Mean and spread about the best bin, and how much of the posterior lies there.
+void conclude(const Bins& bins, const std::vector<double>& total, const JointEvidence& evidence, const JointDecisionConfig& config,
+              JointSpan& span) {
+  const auto best = static_cast<std::size_t>(std::max_element(total.begin(), total.end()) - total.begin());
+  const double window = evidence.is_turn ? config.window_deg * kDegree : config.window_m;
+  double all = 0.0;
+  double near = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  std::vector<char> likely(total.size(), 0);
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    const double chance = std::exp(total[i] - total[best]);
+    likely[i] = chance > 0.02 ? 1 : 0;
+    all += chance;
+    if (std::abs(bins.at(i) - bins.at(best)) <= window) {
+      near += chance;
+      first += chance * bins.at(i);
+      second += chance * bins.at(i) * bins.at(i);
+    }
+  }
+  span.value = first / near;
+  span.variance = std::max(0.0, second / near - span.value * span.value) + evidence.shared_variance;
+  span.confidence = near / all;
+  const double max_sigma = evidence.is_turn ? config.max_sigma_deg * kDegree : config.max_sigma_m;
+  const auto filled = static_cast<double>(std::count(likely.begin(), likely.end(), 1)) / static_cast<double>(likely.size());
+  if (span.confidence >= config.min_confidence && std::sqrt(span.variance) <= max_sigma) {
+    span.status = JointStatus::kFound;
+  } else {
+    span.status = filled <= config.max_spread ? JointStatus::kAmbiguous : JointStatus::kNotObservable;
+  }
+}
+
+std::vector<JointSighting> seeing(const std::vector<JointSighting>& sightings, std::vector<std::size_t>& indices) {
+  std::vector<JointSighting> kept;
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    OIKOS_CHECK(i == 0 || sightings[i].stamp_ns >= sightings[i - 1].stamp_ns);
+    if (sightings[i].status != JointStatus::kNotInView && !sightings[i].evidence.log_likelihood.empty()) {
+      OIKOS_CHECK(kept.empty() || sightings[i].evidence.values == kept.front().evidence.values);
+      kept.push_back(sightings[i]);
+      indices.push_back(i);
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<std::string> JointFusionConfig::validate() const {
+  return base::ConfigRules()
+      .between("repeated", repeated, 0.0, 1.0)
+      .atLeast("same_view_m", same_view_m, 0.0)
+      .atLeast("same_view_deg", same_view_deg, 0.0)
+      .require(misread > 0.0 && misread < 1.0, "misread", misread, "must be > 0 and < 1")
+      .require(misread_unsure > 0.0 && misread_unsure < 1.0, "misread_unsure", misread_unsure, "must be > 0 and < 1")
+      .atLeast("change_cost", change_cost, 0.0)
+      .greater("bin_deg", bin_deg, 0.0)
+      .greater("bin_m", bin_m, 0.0)
+      .messages();
+}
+
+std::vector<JointSpan> fuse(const std::vector<JointSighting>& sightings, const JointFusionConfig& config) {
+  OIKOS_CHECK(config.validate().empty() && config.decision.validate().empty());
+  std::vector<std::size_t> indices;
+  const std::vector<JointSighting> kept = seeing(sightings, indices);
+  if (kept.empty()) {
+    return {};
+  }
+  const Bins bins = binsOf(kept.front().evidence, config);
+  std::vector<std::vector<double>> log_chances;
+  for (const JointSighting& sighting : kept) {
+    log_chances.push_back(logChances(bins, sighting, config));
+  }
+  const std::vector<int> views = viewsOf(kept, config);
+  const std::vector<std::size_t> splits = bestSplits(log_chances, views, config);
+  std::vector<JointSpan> spans;
+  for (std::size_t k = 0; k < splits.size(); ++k) {
+    const std::size_t end = k + 1 < splits.size() ? splits[k + 1] : kept.size();
+    SpanSum sum(bins.count, config.repeated);
+    for (std::size_t i = splits[k]; i < end; ++i) {
+      sum.add(views[i], log_chances[i]);
+    }
+    JointSpan span;
+    span.first = indices[splits[k]];
+    span.last = indices[end - 1];
+    span.first_ns = kept[splits[k]].stamp_ns;
+    span.last_ns = kept[end - 1].stamp_ns;
+    conclude(bins, sum.total(), kept.front().evidence, config.decision, span);
+    spans.push_back(span);
+  }
+  return spans;
+}
+
+}  // namespace oikos::registration
