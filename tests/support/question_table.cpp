@@ -77,14 +77,14 @@ std::string missesOf(const semantic::Answer& answer, const nlohmann::json& expec
   return {};
 }
 
-TableScore score(const std::vector<TableRow>& table, const std::filesystem::path& source_folder) {
+TableScore score(const std::vector<TableRow>& table, const std::filesystem::path& source_folder, bool with_events) {
   const std::filesystem::path events = source_folder / "tests/data/questions/demo_events.jsonl";
   std::map<std::string, std::unique_ptr<QuestionedHome>> homes;
   TableScore result;
   for (const TableRow& row : table) {
     auto& home = homes[row.home];
     if (!home) {
-      home = std::make_unique<QuestionedHome>(source_folder, row.home, row.home == "household" ? events : "");
+      home = std::make_unique<QuestionedHome>(source_folder, row.home, with_events && row.home == "household" ? events : "");
     }
     const semantic::Answer answer = home->ask(row.question, base::parseRfc3339Ns(row.now).value());
     const std::string miss = missesOf(answer, row.expect);

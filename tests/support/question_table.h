@@ -47,6 +47,7 @@ struct TableScore {
 [[nodiscard]] std::vector<TableRow> readTable(const std::filesystem::path& file);
 /// What of the expectation the answer misses; empty: right.
 [[nodiscard]] std::string missesOf(const semantic::Answer& answer, const nlohmann::json& expect);
-[[nodiscard]] TableScore score(const std::vector<TableRow>& table, const std::filesystem::path& source_folder);
+/// `with_events`: the household has lived through demo_events.jsonl; else every home is as its home.xml says.
+[[nodiscard]] TableScore score(const std::vector<TableRow>& table, const std::filesystem::path& source_folder, bool with_events = true);
 
 }  // namespace oikos::test

@@ -163,6 +163,7 @@ Names described(const std::string& schema) {
 TEST(OpenApi, AnswersToEveryKindOfQuestionAreAsDescribed) {
   const ServedHome papers;
   const ServedHome household("household");
+  const ServedHome demo("demo");
   const std::string events = "[" + readLines(kSource / "tests/data/questions/demo_events.jsonl", ",") + "]";
   ASSERT_EQ(household.post(events).status, 200);
   Json picture = Json::parse(R"({"subject": "blue-cup", "kind": "sighted", "time": "2026-03-12T17:00:00Z", "recording": "r", "frame": 7,
@@ -172,7 +173,7 @@ TEST(OpenApi, AnswersToEveryKindOfQuestionAreAsDescribed) {
   std::set<semantic::QuestionKind> kinds;
   std::map<std::string, Names> said;
   Json questions = Json::array();
-  for (const char* const table : {"table.json", "people.json"}) {
+  for (const char* const table : {"table.json", "people.json", "talk.json"}) {
     std::ifstream file(kSource / "tests/data/questions" / table);
     for (const Json& row : Json::parse(file)) {
       questions.push_back(row);
@@ -183,7 +184,7 @@ TEST(OpenApi, AnswersToEveryKindOfQuestionAreAsDescribed) {
     if (const auto parsed = semantic::parseQuestion(semantic::wordsOf(question)); parsed.question) {
       kinds.insert(parsed.question->kind);
     }
-    const ServedHome& home = row["home"] == "papers" ? papers : household;
+    const ServedHome& home = row["home"] == "papers" ? papers : row["home"] == "demo" ? demo : household;
     const Json answer = home.getJson("/v1/ask?at=0,0,0&now=" + row["now"].get<std::string>() + "&q=" + percentEncoded(question));
     expectIs("Answer", answer, question);
     noteSaid(answer, said["Answer"]);
