@@ -64,12 +64,12 @@ constexpr auto enumTable(LoopVerdict) {
 
 /// A place that looked like one seen before, and what became of it.
 struct LoopFacts {
-  int from_frame = 0;                ///< the later one; index into MapReport::frames
-  int to_frame = 0;                  ///< the earlier one
-  bool is_to_earlier_drive = false;  ///< `to_frame` is an index into MapReport::extension->trajectory instead
+  int from_frame = 0;  ///< the later one; index into MapReport::frames
+  int to_frame = 0;    ///< the earlier one
   int inliers = 0;
   double residual_px = 0.0;
   LoopVerdict verdict = LoopVerdict::kRejectedByGeometry;
+  bool is_to_earlier_drive = false;  ///< `to_frame` is an index into MapReport::extension->trajectory instead
 };
 
 /// One of the drives that a map is made of.

@@ -157,5 +157,29 @@ TEST(BundleAdjustment, SameBitsTwice) {
   EXPECT_EQ(std::memcmp(&a.final_cost, &b.final_cost, sizeof(double)), 0);
 }
 
+/// A node of an extended map that nothing is seen of stays where the map has it to its neighbours, whatever moves these.
+TEST(BundleAdjustment, WhatIsSettledHoldsANodeWithoutSightings) {
+  SimulatedBundle bundle({.pixel_sigma_px = 0.0, .depth_sigmas = 0.0});
+  KeyframeGraph& graph = bundle.graph;
+  const int alone = static_cast<int>(graph.nodes.size());
+  Node node;
+  node.T_world_camera = graph.nodes.back().T_world_camera * Eigen::Translation3d(0.1, 0.0, 0.0);
+  Edge edge;
+  edge.from = alone - 1;
+  edge.to = alone;
+  edge.T_from_to = graph.nodes.back().T_world_camera.inverse() * node.T_world_camera;
+  graph.nodes.push_back(node);
+  graph.edges.push_back(edge);
+  graph.settled = alone + 1;
+  const Eigen::Isometry3d before = graph.nodes[static_cast<std::size_t>(alone) - 1].T_world_camera;
+  BundleAdjustmentConfig config;
+  config.max_iterations = 50;
+  ASSERT_TRUE(adjustBundle(graph, bundle.camera, 0.0, Readout::kFixed, config).usable);
+  const Eigen::Isometry3d& neighbour = graph.nodes[static_cast<std::size_t>(alone) - 1].T_world_camera;
+  ASSERT_GT((neighbour.translation() - before.translation()).norm(), 0.005);
+  const Eigen::Isometry3d T_neighbour_alone = neighbour.inverse() * graph.nodes.back().T_world_camera;
+  EXPECT_LT((T_neighbour_alone.translation() - Eigen::Vector3d(0.1, 0.0, 0.0)).norm(), 1e-3);
+}
+
 }  // namespace
 }  // namespace oikos::mapping

@@ -167,5 +167,60 @@ TEST(LoopConsistency, AnOdometryEdgeBackwardsBreaksTheContract) {
   EXPECT_THROW(static_cast<void>(consistentEdges(drive.graph, {}, {})), base::ContractViolation);
 }
 
+/// The first lap is a map, the second a drive in a world of its own.
+SimulatedDrive driveBesideAMap(unsigned seed) {
+  SimulatedDrive drive(seed);
+  Eigen::Isometry3d T_own_world = shiftBy(3.0, -2.0, 0.5);
+  T_own_world.rotate(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()));
+  drive.breakAt(kLap, T_own_world);
+  drive.graph.settled = kLap;
+  return drive;
+}
+
+TEST(IsConfirmed, LoopsOfSeveralViewsThatAgree) {
+  SimulatedDrive drive = driveBesideAMap(5);
+  const Edge first = drive.graph.edges[drive.addLoop(0, kLap)];
+  EXPECT_TRUE(isConfirmed(drive.graph, first, 1, {}));
+  EXPECT_FALSE(isConfirmed(drive.graph, first, 2, {}));
+  (void)drive.addLoop(1, kLap);  // of the same view
+  EXPECT_FALSE(isConfirmed(drive.graph, first, 2, {}));
+  (void)drive.addLoop(3, kLap + 3);
+  EXPECT_TRUE(isConfirmed(drive.graph, first, 2, {}));
+  const Edge third = drive.graph.edges[drive.addLoop(6, kLap + 6)];
+  EXPECT_TRUE(isConfirmed(drive.graph, third, 3, {}));
+}
+
+TEST(IsConfirmed, LoopsThatContradictConfirmNothing) {
+  SimulatedDrive drive = driveBesideAMap(6);
+  const Edge loop = drive.graph.edges[drive.addLoop(0, kLap)];
+  (void)drive.addWrongLoop(20, kLap + 3, Eigen::Isometry3d::Identity());
+  (void)drive.addWrongLoop(30, kLap + 6, Eigen::Isometry3d::Identity());
+  EXPECT_FALSE(isConfirmed(drive.graph, loop, 2, {}));
+}
+
+TEST(LoopConsistency, ALoneLoopJoinsNothingToAMap) {
+  SimulatedDrive drive = driveBesideAMap(7);
+  const std::size_t lone = drive.addLoop(5, kLap + 5);
+  drive.graph.edges[lone].inliers = 500;
+  EXPECT_EQ(consistentEdges(drive.graph, {}, {})[lone], 0);
+  drive.graph.settled = 0;
+  EXPECT_NE(consistentEdges(drive.graph, {}, {})[lone], 0);  // between two stretches of one drive it would
+}
+
+/// However long the way was between two places of a map, it is off by no more: what a drive of that length would excuse is not.
+TEST(LoopConsistency, AMapIsNoLongWay) {
+  SimulatedDrive drive = driveBesideAMap(8);
+  std::vector<std::size_t> loops;
+  for (int n = 0; n < 12; n += 2) {
+    loops.push_back(drive.addLoop(n, kLap + n));
+  }
+  Eigen::Isometry3d off = drive.trueMotion(30, kLap + 11);
+  off.pretranslate(Eigen::Vector3d(0.4, 0.0, 0.0));
+  const std::size_t wrong = drive.addWrongLoop(30, kLap + 11, off);
+  const auto believed = consistentEdges(drive.graph, {}, {});
+  EXPECT_EQ(countBelieved(believed, loops), static_cast<int>(loops.size()));
+  EXPECT_EQ(believed[wrong], 0);
+}
+
 }  // namespace
 }  // namespace oikos::mapping

@@ -195,6 +195,26 @@ TEST(PoseGraph, AMotionPriorIsWeakAndRobust) {
   EXPECT_LT(drive.worstError_m(), kClosedError_m);
 }
 
+/// A step of a centimetre and one of ten metres, each against one more measurement that is off by 10 cm: the wheels' drift is known.
+TEST(PoseGraph, ALongStepOfTheWheelsIsTrustedLess) {
+  const auto pulled = [](double way_m) {
+    KeyframeGraph graph;
+    graph.nodes.resize(2);
+    graph.nodes[1].T_world_camera.translation().x() = way_m;
+    Edge edge;
+    edge.from = 0;
+    edge.to = 1;
+    edge.T_from_to.translation().x() = way_m + 0.1;
+    edge.information *= 1.0 / (0.04 * 0.1 * 0.1);  // 10 cm, behind information_scale
+    graph.edges.push_back(edge);
+    MotionPrior wheels{0, 1, Eigen::Isometry3d(Eigen::Translation3d(way_m, 0.0, 0.0))};
+    EXPECT_TRUE(optimisePoseGraph(graph, {1}, {wheels}, {}).usable);
+    return graph.nodes[1].T_world_camera.translation().x() - way_m;
+  };
+  EXPECT_LT(pulled(0.01), 0.02);  // 3 cm against 10 cm
+  EXPECT_GT(pulled(10.0), 0.08);  // 30 cm against 10 cm
+}
+
 TEST(JoinSubmaps, ALoopBringsTwoWorldsTogether) {
   SimulatedDrive drive(10);
   const double drift_m = drive.worstError_m();

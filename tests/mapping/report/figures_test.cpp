@@ -68,6 +68,15 @@ TEST(ReportFigures, PartsThatDoNotBelongTogetherBreakTheContract) {
   EXPECT_THROW(static_cast<void>(figuresOf(wild_loop)), base::ContractViolation);
 }
 
+TEST(ReportFigures, LoopsIntoEarlierDrivesNeedOne) {
+  MapReport report = test::extendedReport();
+  EXPECT_EQ(figuresOf(report).loops_to_earlier, 1);
+  report.loops.back().to_frame = 3;
+  EXPECT_THROW((void)figuresOf(report), base::ContractViolation);
+  report.extension.reset();
+  EXPECT_THROW((void)figuresOf(report), base::ContractViolation);
+}
+
 TEST(ReportFigures, NamesOfTheFacts) {
   oikos::test::checkEnumTable(FrameStatus::kLost);
   oikos::test::checkEnumTable(LoopVerdict::kRejectedByConsistency);

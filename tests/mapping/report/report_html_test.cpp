@@ -76,6 +76,18 @@ TEST(ReportHtml, ShowsAndDrawsTheFloorPlan) {
   EXPECT_EQ(count(html, "<path class=\"plan\""), 1);
 }
 
+TEST(ReportHtml, ShowsAndDrawsWhatWasExtendedAndWhatHasChanged) {
+  const std::string html = reportHtml(test::extendedReport());
+  for (const char* part : {"What was extended", "12.5 mm", "What has changed", "gone", "0.50, 0.25, 0.38", "class=\"earlier\"",
+                           "class=\"change-gone\"", "earlier drives"}) {
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  }
+  MapReport unchanged = test::extendedReport();
+  unchanged.extension->changes.clear();
+  EXPECT_NE(reportHtml(unchanged).find("Nothing that is large enough"), std::string::npos);
+  EXPECT_EQ(reportHtml(test::sampleReport()).find("What has changed"), std::string::npos);
+}
+
 TEST(ReportHtml, DrawsBothPathsAndEveryLoop) {
   MapReport report = test::sampleReport();
   const std::string html = reportHtml(report);

@@ -55,7 +55,7 @@ TEST(ReportJson, KeysKeepTheirOrder) {
     keys.push_back(key);
   }
   EXPECT_EQ(keys, (std::vector<std::string>{"format", "version", "summary", "warnings", "recording", "tracking", "loops", "optimisation",
-                                            "floor", "map", "frames"}));
+                                            "floor", "drives", "map", "frames"}));
 }
 
 TEST(ReportJson, AFloorPlanIsThereIfThereWasOne) {
@@ -73,6 +73,22 @@ TEST(ReportJson, AFloorPlanIsThereIfThereWasOne) {
   EXPECT_EQ(plan["walls_missing_m"], 0.5);
   EXPECT_EQ(plan["floor_outside_m2"], 0.125);
   EXPECT_EQ(plan["surface_beyond_share"], 0.03125);
+}
+
+TEST(ReportJson, AnExtendedMapSaysWhatItIsMadeOfAndWhatHasChanged) {
+  const Json json = Json::parse(reportJson(test::extendedReport()));
+  EXPECT_EQ(json["drives"][1], (Json{{"first_frame", 3}, {"frames", 40}, {"added_to_stamps_s", 12}}));
+  EXPECT_EQ(json["extension"],
+            (Json{{"earlier_frames", 3}, {"earlier_keyframes", 2}, {"keyframes_of_changes", 1}, {"largest_move_m", 0.0125}}));
+  EXPECT_EQ(json["loops"]["to_earlier_drives"], 1);
+  EXPECT_EQ(json["loops"]["list"][2]["to_earlier_frame"], 2);
+  EXPECT_FALSE(json["loops"]["list"][2].contains("to_frame"));
+  ASSERT_EQ(json["changes"].size(), 1U);
+  EXPECT_EQ(json["changes"][0]["kind"], "gone");
+  EXPECT_EQ(json["changes"][0]["center_map_m"], Json({0.5, 0.25, 0.375}));
+  EXPECT_TRUE(json["changes"][0]["support_height_m"].is_null());
+  EXPECT_EQ(json["changes"][0]["confidence"], 0.875);
+  EXPECT_FALSE(Json::parse(reportJson(test::sampleReport())).contains("changes"));
 }
 
 TEST(ReportJson, WhatIsUnknownIsNull) {

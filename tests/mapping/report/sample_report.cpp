@@ -88,4 +88,29 @@ MapReport reportOnPlan() {
   return report;
 }
 
+MapReport extendedReport() {
+  MapReport report = sampleReport();
+  report.drives = {{0, 3, 0}, {3, kFrames, 12}};
+  ExtensionFacts extension;
+  for (int i = 0; i < 3; ++i) {
+    recording::StampedPose pose;
+    pose.stamp_ns = i * 100'000'000LL;
+    pose.T_map_camera.translation() = Eigen::Vector3d(-0.2 * i, 0.5, 1.25);
+    extension.trajectory.push_back(pose);
+  }
+  extension.keyframes = 2;
+  extension.witnesses = 1;
+  extension.largest_move_m = 0.0125;
+  Change change;
+  change.kind = ChangeKind::kGone;
+  change.center_map = Eigen::Vector3d(0.5, 0.25, 0.375);
+  change.size_m = Eigen::Vector3d(0.5, 0.5, 0.75);
+  change.confidence = 0.875;
+  extension.changes = {change};
+  report.extension = extension;
+  report.loops.push_back({10, 2, 55, 0.5, LoopVerdict::kAccepted});
+  report.loops.back().is_to_earlier_drive = true;
+  return report;
+}
+
 }  // namespace oikos::mapping::test

@@ -12,4 +12,7 @@ namespace oikos::mapping::test {
 /// The same, laid onto a floor plan of one wall.
 [[nodiscard]] MapReport reportOnPlan();
 
+/// The same, of a drive that extended a map of three frames; one thing has gone, and a loop leads to the last of them.
+[[nodiscard]] MapReport extendedReport();
+
 }  // namespace oikos::mapping::test
