@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/base/config_rules.h"
@@ -42,13 +43,14 @@ class Run {
   ArticulatedResult run(const Scan& whole_scan) {
     const PixelWindow window = windowOfAll(whole_scan.camera);
     if (window.isEmpty()) {
-      return result({});
+      return result({.base_covariance = priorCovariance(config_.solver), .variances = {}, .shared_variances = {}, .counts = {}});
     }
     const Scan scan = cropped(whole_scan, window);
     const Scan thin = thinned(scan, config_.coarse_thinning);
     JointProfiler profiler(tree_, layers_, thin, T_map_camera_, mixture_);
-    lookForJoints(profiler);
     JointSolver solver(tree_, whole_, scan, mixture_, config_.solver, T_map_camera_, believed_.T_map_model);
+    lookForJoints(profiler);
+    settleRivals(profiler, solver);
     solveAll(solver);
     if (compareAgain(profiler)) {
       solveAll(solver);
@@ -145,6 +147,54 @@ class Run {
                : evidence.values[static_cast<std::size_t>(best - evidence.log_likelihood.begin())];
   }
 
+  /// The local maxima of a profile that come near the best one, which is the first.
+  [[nodiscard]] std::vector<double> rivals(int link) const {
+    const JointEvidence& evidence = evidence_[static_cast<std::size_t>(link)];
+    const std::vector<double>& score = evidence.log_likelihood;
+    const double best = *std::max_element(score.begin(), score.end());
+    std::vector<std::size_t> peaks;
+    for (std::size_t i = 0; i < score.size(); ++i) {
+      const bool is_peak = (i == 0 || score[i] > score[i - 1]) && (i + 1 == score.size() || score[i] >= score[i + 1]);
+      if (is_peak && score[i] > std::max(0.0, (1.0 - config_.rival_share) * best)) {
+        peaks.push_back(i);
+      }
+    }
+    std::stable_sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return score[a] > score[b]; });
+    peaks.resize(std::min(peaks.size(), static_cast<std::size_t>(config_.most_rivals)));
+    std::vector<double> values;
+    for (const std::size_t peak : peaks) {
+      values.push_back(evidence.values[peak]);
+    }
+    return values;
+  }
+
+  /// Two values that explain the image about as well as long as both are only roughly right: each is solved for, and judged again.
+  void settleRivals(JointProfiler& profiler, JointSolver& solver) {
+    for (const int link : movable()) {
+      const std::vector<double> starts = rivals(link);
+      if (starts.size() < 2) {
+        continue;
+      }
+      profiler.stand(estimates_.standing, JointProfiler::Others::kBaseOnly, config_.fine_sigma_m);
+      profiler.choose(link);
+      double best = -std::numeric_limits<double>::infinity();
+      double best_value = valueOf(link);
+      const JointEstimates before = estimates_;
+      for (const double start : starts) {
+        estimates_ = before;
+        valueOf(link) = start;
+        solver.solve(estimates_, {.base = false, .links = {link}});
+        const double score = profiler.score(valueOf(link), estimates_.shift_map[static_cast<std::size_t>(link)]).log_likelihood;
+        if (score > best) {
+          best = score;
+          best_value = valueOf(link);
+        }
+      }
+      estimates_ = before;
+      valueOf(link) = best_value;
+    }
+  }
+
   void solveAll(JointSolver& solver) {
     solver.solve(estimates_, {.base = true, .links = {}});
     for (const int link : movable()) {
@@ -165,7 +215,8 @@ class Run {
       fillProfile(profiler, link);
       evidence.has_peak = true;
       evidence.value = valueOf(link);
-      evidence.peak_log_likelihood = config_.profile_tempering * profiler.score(evidence.value).log_likelihood;
+      const Eigen::Vector3d& shift = estimates_.shift_map[static_cast<std::size_t>(link)];
+      evidence.peak_log_likelihood = config_.profile_tempering * profiler.score(evidence.value, shift).log_likelihood;
       const auto best = std::max_element(evidence.log_likelihood.begin(), evidence.log_likelihood.end());
       const double value = evidence.values[static_cast<std::size_t>(best - evidence.log_likelihood.begin())];
       const bool is_far = std::abs(value - evidence.value) > 1.5 * (evidence.values[1] - evidence.values[0]);
@@ -184,8 +235,12 @@ class Run {
     result.covariance = report.base_covariance;
     result.base_counts = report.counts.empty() ? LinkCounts() : report.counts[0];
     result.rms_m = report.rms_m;
+    result.status = statusOf(result.base_counts);
     for (const int link : movable()) {
       result.joints.push_back(estimateOf(link, report));
+      if (result.status == BaseStatus::kNotThere && result.joints.back().status == JointStatus::kFound) {
+        result.joints.back().status = JointStatus::kNotObservable;  // what hangs on nothing that is there
+      }
     }
     result.joint_values = standing.joint_values;
     const std::vector<Eigen::Isometry3d> T_model_part = tree_.partPoses(standing.joint_values);
@@ -198,6 +253,14 @@ class Run {
       estimate.T_parent_part = result.T_map_part[static_cast<std::size_t>(joint.parent)].inverse() * estimate.T_map_part;
     }
     return result;
+  }
+
+  [[nodiscard]] BaseStatus statusOf(const LinkCounts& counts) const {
+    const int speaking = counts.agreeing + counts.behind;
+    if (speaking < config_.min_base_pixels) {
+      return BaseStatus::kNotInView;
+    }
+    return counts.agreeing >= config_.min_base_share * speaking ? BaseStatus::kRegistered : BaseStatus::kNotThere;
   }
 
   JointEstimate estimateOf(int link, const SolverReport& report) {
@@ -250,6 +313,10 @@ std::vector<std::string> ArticulatedConfig::validate() const {
       .greater("coarse_sigma_m", coarse_sigma_m, 0.0)
       .greater("fine_sigma_m", fine_sigma_m, 0.0)
       .require(profile_tempering > 0.0 && profile_tempering <= 1.0, "profile_tempering", profile_tempering, "must be > 0 and <= 1")
+      .atLeast("min_base_pixels", min_base_pixels, 1)
+      .between("min_base_share", min_base_share, 0.0, 1.0)
+      .atLeast("most_rivals", most_rivals, 1)
+      .between("rival_share", rival_share, 0.0, 1.0)
       .greater("unlimited_m", unlimited_m, 0.0)
       .atLeast("threads", threads, 1)
       .messages();

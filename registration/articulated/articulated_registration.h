@@ -27,6 +27,16 @@ constexpr auto enumTable(SolveOrder) {
   return std::to_array<base::EnumName<SolveOrder>>({{SolveOrder::kPartAfterPart, "part after part"}, {SolveOrder::kTogether, "together"}});
 }
 
+enum class BaseStatus {
+  kNotInView,   ///< nothing of it is before a reading: it is where it was believed to be, as far as the doors do not say more
+  kNotThere,    ///< the readings do not fit it: it has been moved farther than can be told, or is another piece
+  kRegistered,  ///< S228
+};
+constexpr auto enumTable(BaseStatus) {
+  return std::to_array<base::EnumName<BaseStatus>>(
+      {{BaseStatus::kNotInView, "not in view"}, {BaseStatus::kNotThere, "not there"}, {BaseStatus::kRegistered, "registered"}});
+}
+
 struct ArticulatedConfig {
   MixtureConfig mixture;
   JointSolverConfig solver;
@@ -37,8 +47,12 @@ struct ArticulatedConfig {
   double coarse_sigma_m = 0.02;  ///< of surfaces before the base is registered,
   double fine_sigma_m = 0.010;   ///< and after it
   double profile_tempering = 0.1;
-  double unlimited_m = 1.0;  ///< to both sides of the believed value, for a slide without limits
-  int threads = 1;           ///< of the renderer
+  int most_rivals = 3;          ///< local maxima of a joint's profile that are solved for, if they come near the best one,
+  double rival_share = 0.5;     ///< which is to say, within this share of its log likelihood
+  int min_base_pixels = 20;     ///< of the scan: fewer readings do not tell where the base is, nor that it is not there
+  double min_base_share = 0.3;  ///< of the readings of the base and behind it, those of it
+  double unlimited_m = 1.0;     ///< to both sides of the believed value, for a slide without limits
+  int threads = 1;              ///< of the renderer
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -51,6 +65,10 @@ struct ArticulatedConfig {
     visitor("coarse_sigma_m", coarse_sigma_m);
     visitor("fine_sigma_m", fine_sigma_m);
     visitor("profile_tempering", profile_tempering);
+    visitor("most_rivals", most_rivals);
+    visitor("rival_share", rival_share);
+    visitor("min_base_pixels", min_base_pixels);
+    visitor("min_base_share", min_base_share);
     visitor("unlimited_m", unlimited_m);
     visitor("threads", threads);
   }
@@ -72,7 +90,8 @@ struct JointEstimate {
 };
 
 struct [[nodiscard]] ArticulatedResult {
-  Eigen::Isometry3d T_map_model = Eigen::Isometry3d::Identity();  ///< the base, registered again (S228)
+  BaseStatus status = BaseStatus::kNotInView;
+  Eigen::Isometry3d T_map_model = Eigen::Isometry3d::Identity();  ///< the base, registered again
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< of its right perturbation (m, rad); where nothing is seen: its prior's
   LinkCounts base_counts;
   double rms_m = 0.0;                         ///< of all that agrees, from the surfaces

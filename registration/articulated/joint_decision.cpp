@@ -35,12 +35,14 @@ double shareNear(const JointEvidence& evidence, double window) {
   return near > 0.0 ? near / (near + far) : 0.0;
 }
 
-/// Whether what solving has led to explains the image about as well as the best of the values that were merely looked at.
+/// Whether what solving has led to explains the image, and about as well as the best of the values that were merely looked at.
 bool isSummit(const JointEvidence& evidence) {
   constexpr double kLess = 2.0;
   constexpr double kLessShare = 0.5;
+  constexpr double kGain = 1.0;  // over no such part
   const double best = *std::max_element(evidence.log_likelihood.begin(), evidence.log_likelihood.end());
-  return evidence.has_peak && evidence.peak_log_likelihood >= best - std::max(kLess, kLessShare * std::abs(best));
+  return evidence.has_peak && evidence.peak_log_likelihood > kGain &&
+         evidence.peak_log_likelihood >= best - std::max(kLess, kLessShare * std::abs(best));
 }
 
 /// Runs of neighbouring values that are likely, and how much of the range they fill.

@@ -54,7 +54,7 @@ struct JointDecisionConfig {
   double max_sigma_deg = 3.0;    ///< of a value that was found
   double max_sigma_m = 0.018;
   int min_agreeing = 8;      ///< pixels of the scan that show the part
-  double min_share = 0.4;    ///< of the readings of it or behind it, those of it
+  double min_share = 0.6;    ///< of the readings of it or behind it, those of it
   double max_hidden = 0.85;  ///< share of its readings that may lie before it
   double max_spread = 0.4;   ///< of the range, that the values of an ambiguous joint may fill; beyond, nothing is known of it
 

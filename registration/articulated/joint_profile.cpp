@@ -50,12 +50,15 @@ void JointProfiler::stand(const Standing& standing, Others others, double sigma_
   standing_ = standing;
   sigma_m_ = sigma_m;
   T_model_part_ = tree_.partPoses(standing_.joint_values);
-  layers_.pose(T_model_part_, others == Others::kAll);
+  layers_.pose(T_model_part_, false);
   views_.assign(tree_.links().size(), {});
   for (std::size_t link = 0; link < views_.size(); ++link) {
     if (link == 0 || others == Others::kAll) {
       views_[link] = layers_.look(static_cast<int>(link), T_camera_link(static_cast<int>(link)), scan_.camera);
     }
+  }
+  if (others == Others::kAll && tree_.isNested()) {
+    layers_.pose(T_model_part_, true);
   }
 }
 
@@ -110,12 +113,13 @@ double JointProfiler::logOf(std::size_t pixel, double depth_m, const Eigen::Vect
   return mixture_.logOfSurface(reading_m, surface);
 }
 
-ValueScore JointProfiler::score(double value) const {
+ValueScore JointProfiler::score(double value, const Eigen::Vector3d& shift_map) const {
   const Link& link = tree_.links()[static_cast<std::size_t>(link_)];
   const model::ModelJoint& joint = tree_.jointOf(link_);
   const Eigen::Isometry3d T_camera_joint =
       T_camera_map_ * standing_.T_map_model * T_model_part_[static_cast<std::size_t>(joint.parent)] * joint.T_parent_joint;
-  const Eigen::Isometry3d T_camera_child = T_camera_joint * model::jointMotion(joint, value);
+  Eigen::Isometry3d T_camera_child = T_camera_joint * model::jointMotion(joint, value);
+  T_camera_child.pretranslate(T_camera_map_.linear() * shift_map);
   const WindowView seen = layers_.look(link_, T_camera_child, scan_.camera);
   ValueScore score;
   if (seen.window.isEmpty()) {

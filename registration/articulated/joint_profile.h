@@ -41,7 +41,8 @@ class JointProfiler {
 
   /// The link to be scored next.
   void choose(int link);
-  [[nodiscard]] ValueScore score(double value) const;
+  /// `shift_map`: of its joint from where the model has it.
+  [[nodiscard]] ValueScore score(double value, const Eigen::Vector3d& shift_map = Eigen::Vector3d::Zero()) const;
 
  private:
   struct Rest {
@@ -60,7 +61,7 @@ class JointProfiler {
   Standing standing_;
   double sigma_m_ = 0.0;
   std::vector<Eigen::Isometry3d> T_model_part_;
-  std::vector<WindowView> views_;  ///< by link; empty ones are not there
+  std::vector<WindowView> views_;  ///< by link, each without what hangs on it; empty ones are not there
   int link_ = 0;
   std::vector<Rest> rest_;  ///< by pixel, without the chosen link
 };

@@ -64,7 +64,19 @@ Eigen::Vector3d middleOf(const JointTree& tree) {
   return box.isEmpty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(box.center());
 }
 
+/// Deviations of x, y, z and of turns about them; x and y are as well known as each other, and so are the two tilts.
+geometry::Vector6d sigmasOf(const JointSolverConfig& config) {
+  geometry::Vector6d sigmas;
+  sigmas << config.base_sigma_m, config.base_sigma_m, config.upright_sigma_m, config.upright_sigma_deg * kDegree,
+      config.upright_sigma_deg * kDegree, config.base_sigma_deg * kDegree;
+  return sigmas;
+}
+
 }  // namespace
+
+geometry::Matrix6d priorCovariance(const JointSolverConfig& config) {
+  return sigmasOf(config).cwiseAbs2().asDiagonal();
+}
 
 std::vector<std::string> JointSolverConfig::validate() const {
   return base::ConfigRules()
@@ -288,10 +300,7 @@ void JointSolver::addPriors(const JointEstimates& estimates, Equations& equation
   geometry::Vector6d off;
   off << T_map_model * pivot_model_ - T_map_prior_ * pivot_model_,
       geometry::logSo3(T_map_model.linear() * T_map_prior_.linear().transpose());
-  geometry::Vector6d sigma;
-  sigma << config_.base_sigma_m, config_.base_sigma_m, config_.upright_sigma_m, config_.upright_sigma_deg * kDegree,
-      config_.upright_sigma_deg * kDegree, config_.base_sigma_deg * kDegree;
-  const geometry::Vector6d information = sigma.cwiseAbs2().cwiseInverse();
+  const geometry::Vector6d information = sigmasOf(config_).cwiseAbs2().cwiseInverse();
   equations.H.diagonal().head<kBaseSize>() += information;
   equations.g.head<kBaseSize>() += information.cwiseProduct(off);
   const double of_axis = 1.0 / (config_.axis_sigma_m * config_.axis_sigma_m);

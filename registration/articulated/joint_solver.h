@@ -69,6 +69,9 @@ struct SolverReport {
   double rms_m = 0.0;                                               ///< of what agrees, from the surfaces
 };
 
+/// Of a base that nothing is seen of, about its own origin.
+[[nodiscard]] geometry::Matrix6d priorCovariance(const JointSolverConfig& config);
+
 /// Gauss-Newton on point-to-plane distances and outlines, each pixel weighted with how likely it shows what the model has there
 /// (PixelMixture). Beside the base (six freedoms, held by their prior) and the joints' values (held by their limits), the place of each
 /// joint is a little in doubt: a door that stands out evenly by some millimetres is no door that is ajar. Not thread-safe.

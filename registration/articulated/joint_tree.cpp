@@ -51,6 +51,10 @@ const model::ModelJoint& JointTree::jointOf(int link) const {
   return model_.joints[static_cast<std::size_t>(links_[static_cast<std::size_t>(link)].joint)];
 }
 
+bool JointTree::isNested() const {
+  return std::any_of(links_.begin(), links_.end(), [](const Link& link) { return link.chain.size() > 1; });
+}
+
 bool JointTree::hangsOn(int link, int ancestor) const {
   const std::vector<int>& chain = links_[static_cast<std::size_t>(link)].chain;
   return ancestor == 0 || std::find(chain.begin(), chain.end(), ancestor) != chain.end();

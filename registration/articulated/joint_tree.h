@@ -39,6 +39,8 @@ class JointTree {
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }
   [[nodiscard]] int linkOf(int part) const { return link_of_[static_cast<std::size_t>(part)]; }
   [[nodiscard]] const model::ModelJoint& jointOf(int link) const;
+  /// Whether any joint hangs on another one.
+  [[nodiscard]] bool isNested() const;
   /// Whether `link` is `ancestor` or hangs on it, over however many joints.
   [[nodiscard]] bool hangsOn(int link, int ancestor) const;
 

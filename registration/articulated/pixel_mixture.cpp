@@ -21,11 +21,12 @@ constexpr double kNearest_m = 0.3;
 
 std::vector<std::string> MixtureConfig::validate() const {
   base::ConfigRules rules;
-  rules.require(as_modelled > 0.0 && as_modelled < 1.0, "as_modelled", as_modelled, "must be > 0 and < 1")
+  rules
+      .require(as_modelled > contents && as_modelled + nearer + behind < 1.0, "as_modelled", as_modelled,
+               "must be > contents, and with nearer and behind < 1")
       .greater("nearer", nearer, 0.0)
       .greater("behind", behind, 0.0)
-      .require(as_modelled + nearer + behind < 1.0, "as_modelled", as_modelled, "must leave something, with nearer and behind, of 1")
-      .require(contents >= 0.0 && contents < as_modelled, "contents", contents, "must be >= 0 and < as_modelled")
+      .atLeast("contents", contents, 0.0)
       .atLeast("min_room_m", min_room_m, 0.0)
       .require(max_normal_deg > 0.0 && max_normal_deg <= 90.0, "max_normal_deg", max_normal_deg, "must be > 0 and <= 90")
       .greater("range_m", range_m, 0.5);

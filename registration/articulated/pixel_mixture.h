@@ -10,9 +10,9 @@ namespace oikos::registration {
 
 /// How likely what is in a pixel, if the model shows a surface there. What is left of 1 is a reading from nowhere.
 struct MixtureConfig {
-  double as_modelled = 0.80;
+  double as_modelled = 0.85;
   double nearer = 0.12;          ///< something stands before it: a person, a hand
-  double behind = 0.03;          ///< the surface is not there
+  double behind = 0.01;          ///< the surface is not there
   double contents = 0.35;        ///< taken from `as_modelled` where the surface lies inside its link: what the cupboard or drawer holds
   double min_room_m = 0.06;      ///< from a link's hull to the surface behind it, so that something can stand in between
   double max_normal_deg = 40.0;  ///< between normals: beyond, the reading is a tenth as likely of this surface

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/registration/articulated/door_world.h"
+
+#include <opencv2/core.hpp>
+
+#include "core/model/primitives.h"
+
+namespace oikos::registration {
+
+std::shared_ptr<const model::TriangleMesh> cuboid(const Eigen::AlignedBox3d& box_part) {
+  model::TriangleMesh mesh = model::makeBox(Eigen::Vector3d(box_part.sizes()).cast<float>());
+  for (Eigen::Vector3f& vertex : mesh.vertices) {
+    vertex += Eigen::Vector3d(box_part.center()).cast<float>();
+  }
+  mesh.materials.assign(1, {});
+  mesh.materials[0].color_rgb = {0.7F, 0.7F, 0.7F};
+  mesh.triangle_materials.assign(mesh.triangles.size(), 0);
+  return std::make_shared<const model::TriangleMesh>(std::move(mesh));
+}
+
+DoorWorld::DoorWorld(model::ArticulatedModel built) : model(std::move(built)), values(model.joints.size(), 0.0) {
+  lookFrom(1.6, 20.0);
+}
+
+void DoorWorld::lookFrom(double distance_m, double off_axis_deg) {
+  T_map_camera = test::cameraBefore(T_map_model, distance_m, off_axis_deg * kDegree, 0.45);
+}
+
+Scan DoorWorld::scan() const {
+  render::Scene scene;
+  scene.add(model, T_map_model, values);
+  const auto addBox = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    scene.add(cuboid(Eigen::AlignedBox3d(low, high)), T_map_model);
+  };
+  addBox({-6.0, -6.0, -0.1}, {6.0, 6.0, 0.0});
+  if (has_wall) {
+    addBox({-0.5, -6.0, 0.0}, {-0.4, 6.0, 3.0});
+  }
+  for (const Obstacle& obstacle : obstacles) {
+    addBox(obstacle.box_model.min(), obstacle.box_model.max());
+  }
+  scene.commit();
+  const camera::PinholeCamera camera = test::kinectCamera();
+  return makeScan(test::sensed(test::viewOf(scene, camera, T_map_camera), camera, sensor, 1), camera, {});
+}
+
+ArticulatedResult DoorWorld::registered(const std::vector<double>& joint_values, const ArticulatedConfig& config) const {
+  return ArticulatedRegistration(model, config).run(scan(), T_map_camera, believed(joint_values));
+}
+
+}  // namespace oikos::registration
