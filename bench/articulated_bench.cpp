@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "bench/articulated/sequence.h"
 #include "bench/articulated/trial.h"
 
 namespace {
@@ -88,41 +89,70 @@ void print(const bench::PieceTrial& trial) {
   }
 }
 
-}  // namespace
+/// Fused over the images of a drive.
+struct SequenceTally {
+  int moved = 0;
+  int moved_right = 0;  ///< split at the right image
+  int still = 0;
+  int still_right = 0;  ///< not split
+  int found = 0;        ///< last spans
+  int wrong = 0;
+  int turns = 0;
+  int slides = 0;
+  double error_deg = 0.0;
+  double error_m = 0.0;
+  double single_deg = 0.0;  ///< mean error of the same span's images, each by itself
+  double single_m = 0.0;
+  double normalised = 0.0;
 
-int main(int argc, char** argv) {
-  CLI::App app{"Doors and drawers from one depth image: accuracy, wrong answers, abstentions, time"};
-  bench::TrialSettings settings;
-  int trials = 1500;
-  int first = 0;
-  bool verbose = false;
-  std::string sensor = "kinect1";
-  std::string order = "together";
-  app.add_option("--trials", trials, "images; ten kinds of furniture take turns")->check(CLI::PositiveNumber);
-  app.add_option("--first", first, "number of the first");
-  app.add_option("--sensor", sensor, "ideal, kinect1, kinect2");
-  app.add_option("--dimension-m", settings.dimension_m, "deviation of each length from the model's");
-  app.add_option("--axis-m", settings.axis_m, "of each coordinate of a joint's origin");
-  app.add_option("--axis-deg", settings.axis_deg, "of its direction");
-  app.add_option("--shift-m", settings.shift_m, "the piece stands so far from where it is believed");
-  app.add_option("--shift-deg", settings.shift_deg, "and is turned so far");
-  app.add_option("--occluded", settings.occluded, "share of the piece's width that a person hides");
-  app.add_option("--order", order, "'part after part' or 'together'");
-  app.add_option("--seed", settings.seed, "of the trials");
-  app.add_option("--tempering", settings.config.solver.tempering, "of a reading's information");
-  app.add_option("--most-readings", settings.config.solver.most_readings, "that a link counts for");
-  app.add_option("--base-sigma-m", settings.config.solver.base_sigma_m, "how well the piece's place is believed to be known");
-  app.add_option("--base-sigma-deg", settings.config.solver.base_sigma_deg, "and its yaw");
-  app.add_option("--rounds", settings.config.solver.rounds, "of solving");
-  app.add_flag("--verbose", verbose, "a line for each joint");
-  CLI11_PARSE(app, argc, argv);
-  settings.sensor = *base::findEnum<camera::DepthSensorKind>(sensor);
-  settings.config.order = *base::findEnum<registration::SolveOrder>(order);
+  void add(const bench::JointSequence& sequence) {
+    if (sequence.found == 0) {
+      return;  // not seen by any image by itself
+    }
+    (sequence.has_moved ? moved : still) += 1;
+    (sequence.has_moved ? moved_right : still_right) += sequence.is_split_right ? 1 : 0;
+    if (sequence.status != registration::JointStatus::kFound) {
+      return;
+    }
+    ++found;
+    const bool is_right = sequence.error <= (sequence.is_turn ? 5.0 * kDegree : 0.02);
+    wrong += is_right ? 0 : 1;
+    (sequence.is_turn ? turns : slides) += 1;
+    (sequence.is_turn ? error_deg : error_m) += sequence.is_turn ? sequence.error / kDegree : sequence.error;
+    (sequence.is_turn ? single_deg : single_m) += sequence.is_turn ? sequence.mean_error / kDegree : sequence.mean_error;
+    normalised += is_right ? sequence.error * sequence.error / sequence.variance : 0.0;
+  }
+};
+
+void runSequences(int first, int count, const bench::SequenceSettings& settings, bool verbose) {
+  SequenceTally tally;
+  for (int i = first; i < first + count; ++i) {
+    for (const bench::JointSequence& sequence : bench::runSequence(i, settings)) {
+      tally.add(sequence);
+      if (verbose) {
+        const double unit = sequence.is_turn ? kDegree : 0.01;
+        std::printf("%5d %-13s %-22s %s spans %zu %s error %.2f sigma %.2f single %.2f of %d%s\n", i, sequence.kind.c_str(),
+                    sequence.joint.c_str(), sequence.has_moved ? "moved" : "still", sequence.spans,
+                    std::string(base::toString(sequence.status)).c_str(), sequence.error / unit, std::sqrt(sequence.variance) / unit,
+                    sequence.mean_error / unit, sequence.found, sequence.is_split_right ? "" : " SPLIT WRONG");
+      }
+    }
+  }
+  std::printf("%d images each. Moved joints, split at the right image %%: %s of %d; still ones, not split %%: %s of %d\n", settings.frames,
+              rate(tally.moved_right, tally.moved).c_str(), tally.moved, rate(tally.still_right, tally.still).c_str(), tally.still);
+  std::printf("last span: found %d, wrong %% %s; %.2f deg (single images %.2f), %.1f mm (%.1f), error^2/variance %.2f\n", tally.found,
+              rate(tally.wrong, tally.found).c_str(), tally.error_deg / std::max(1, tally.turns),
+              tally.single_deg / std::max(1, tally.turns), 1000.0 * tally.error_m / std::max(1, tally.slides),
+              1000.0 * tally.single_m / std::max(1, tally.slides), tally.normalised / std::max(1, tally.found - tally.wrong));
+}
+
+/// Each image by itself.
+void runTrials(int first, int count, const bench::TrialSettings& settings, bool verbose) {
   std::map<std::string, Tally> tallies;
   std::map<std::string, std::vector<double>> ms;
   double base_m = 0.0;
   double base_deg = 0.0;
-  for (int i = first; i < first + trials; ++i) {
+  for (int i = first; i < first + count; ++i) {
     const bench::PieceTrial trial = bench::runTrial(i, settings);
     for (const bench::JointTrial& joint : trial.joints) {
       tallies[trial.kind].add(joint);
@@ -138,12 +168,53 @@ int main(int argc, char** argv) {
   }
   std::printf(
       "| kind | joints | visible | of these right %% (95 %%) | abstained %% | found | of these wrong %% | deg | mm | error^2/variance | "
-      "CPU ms |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const std::string& kind : bench::trialKinds()) {
+      "CPU ms "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const std::string& kind : bench::worldKinds()) {
     report(kind, tallies[kind], ms[kind]);
   }
   report("all", tallies["all"], ms["all"]);
-  std::printf("base: %.1f mm, %.2f deg\n", 1000.0 * base_m / trials, base_deg / trials);
+  std::printf("base: %.1f mm, %.2f deg\n", 1000.0 * base_m / count, base_deg / count);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Doors and drawers from one depth image: accuracy, wrong answers, abstentions, time"};
+  bench::SequenceSettings sequence;
+  bench::TrialSettings& settings = sequence.trial;
+  int trials = 1500;
+  int first = 0;
+  int frames = 0;
+  bool verbose = false;
+  std::string sensor = "kinect1";
+  std::string order = "together";
+  app.add_option("--trials", trials, "images; ten kinds of furniture take turns")->check(CLI::PositiveNumber);
+  app.add_option("--first", first, "number of the first");
+  app.add_option("--sensor", sensor, "ideal, kinect1, kinect2");
+  app.add_option("--dimension-m", settings.world.dimension_m, "deviation of each length from the model's");
+  app.add_option("--axis-m", settings.world.axis_m, "of each coordinate of a joint's origin");
+  app.add_option("--axis-deg", settings.world.axis_deg, "of its direction");
+  app.add_option("--shift-m", settings.world.shift_m, "the piece stands so far from where it is believed");
+  app.add_option("--shift-deg", settings.world.shift_deg, "and is turned so far");
+  app.add_option("--occluded", settings.world.occluded, "share of the piece's width that a person hides");
+  app.add_option("--order", order, "'part after part' or 'together'");
+  app.add_option("--seed", settings.seed, "of the trials");
+  app.add_option("--tempering", settings.config.solver.tempering, "of a reading's information");
+  app.add_option("--most-readings", settings.config.solver.most_readings, "that a link counts for");
+  app.add_option("--base-sigma-m", settings.config.solver.base_sigma_m, "how well the piece's place is believed to be known");
+  app.add_option("--base-sigma-deg", settings.config.solver.base_sigma_deg, "and its yaw");
+  app.add_option("--rounds", settings.config.solver.rounds, "of solving");
+  app.add_option("--frames", frames, "of a drive past each piece, one of whose joints is moved meanwhile; 0: single images");
+  app.add_flag("--verbose", verbose, "a line for each joint");
+  CLI11_PARSE(app, argc, argv);
+  settings.world.sensor = *base::findEnum<camera::DepthSensorKind>(sensor);
+  settings.config.order = *base::findEnum<registration::SolveOrder>(order);
+  if (frames > 0) {
+    sequence.frames = frames;
+    runSequences(first, trials, sequence, verbose);
+  } else {
+    runTrials(first, trials, settings, verbose);
+  }
   return 0;
 }

@@ -1,227 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/articulated/trial.h"
 
-#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <numbers>
 #include <opencv2/core.hpp>
-#include <random>
-
-#include "core/model/primitives.h"
-#include "tests/registration/furniture_scan.h"
-#include "tests/support/analytic_room.h"
 
 namespace oikos::bench {
 
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-using Random = std::mt19937_64;
 
-struct Kind {
-  std::string name;
-  test::FurnitureKind shape;
-};
-
-const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> kinds = {
-      {"cabinet", {"cabinet"}},
-      {"two doors", {"cabinet", {{"door_count", "2"}, {"width_m", "0.9"}, {"worktop_thickness_m", "0.04"}}}},
-      {"wardrobe", {"cabinet", {{"door_count", "2"}, {"width_m", "1.0"}, {"height_m", "1.9"}, {"shelf_count", "4"}}}},
-      {"wall cupboard",
-       {"cabinet",
-        {{"bottom_m", "1.35"},
-         {"height_m", "0.7"},
-         {"depth_m", "0.35"},
-         {"plinth_height_m", "0"},
-         {"hinge", "right"},
-         {"handle_level", "0.1"}}}},
-      {"drawer unit", {"drawer_unit"}},
-      {"chest", {"drawer_unit", {{"drawer_count", "5"}, {"width_m", "0.8"}, {"height_m", "1.1"}, {"depth_m", "0.45"}}}},
-      {"fridge", {"fridge"}},
-      {"oven", {"oven"}},
-      {"dishwasher", {"dishwasher"}},
-      {"room door", {"room_door"}},
-  };
-  return kinds;
-}
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-double normal(Random& random) {
-  return std::normal_distribution<double>()(random);
-}
-
-Eigen::Isometry3d at(double x, double y, double z) {
-  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
-
-std::shared_ptr<const model::TriangleMesh> box(const Eigen::Vector3d& size) {
-  model::TriangleMesh mesh = model::makeBox(size.cast<float>());
-  mesh.materials.assign(1, {});
-  mesh.materials[0].color_rgb = {0.6F, 0.6F, 0.55F};
-  mesh.triangle_materials.assign(mesh.triangles.size(), 0);
-  return std::make_shared<const model::TriangleMesh>(std::move(mesh));
-}
-
-/// As the simulator's [belief] does: origin and direction of each hinge and slide.
-void disturbAxes(model::ArticulatedModel& model, const TrialSettings& settings, Random& random) {
-  for (model::ModelJoint& joint : model.joints) {
-    const Eigen::Vector3d axis = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
-    joint.T_parent_joint.rotate(Eigen::AngleAxisd(settings.axis_deg * kDegree * normal(random), axis));
-    joint.T_parent_joint.pretranslate(settings.axis_m * Eigen::Vector3d(normal(random), normal(random), normal(random)));
-  }
-}
-
-Eigen::AlignedBox3d boxOf(const model::TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& vertex : mesh.vertices) {
-    box.extend(vertex.cast<double>());
-  }
-  return box;
-}
-
-/// A quarter of all joints are closed, the others anywhere; a dishwasher's baskets stay behind its door.
-std::vector<double> randomState(const model::ArticulatedModel& model, const model::ArticulatedModel& believed, Random& random) {
-  std::vector<double> values;
-  double door_rad = std::numbers::pi;
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    const model::ModelJoint& joint = model.joints[j];
-    const double lower = std::max(joint.lower, believed.joints[j].lower);
-    const double upper = std::min(joint.upper, believed.joints[j].upper);
-    double value = uniform(random, 0.0, 1.0) < 0.25 ? lower : uniform(random, lower, upper);
-    if (joint.type == model::MotionType::kRevolute) {
-      door_rad = value;
-    } else if (joint.name.find("basket") != std::string::npos && door_rad < 85.0 * kDegree) {
-      value = 0.0;
-    }
-    values.push_back(value);
-  }
-  return values;
-}
-
-struct World {
-  model::ArticulatedModel real;
-  model::ArticulatedModel believed;
-  std::vector<double> values;
-  Eigen::Isometry3d T_map_model;
-  Eigen::Isometry3d T_map_camera;
-  std::string kind;
-};
-
-/// Boxes on the shelves, behind the front, and in the drawers, which carry them along.
-void addContents(const World& world, render::Scene& scene, Random& random) {
-  const std::vector<Eigen::Isometry3d> T_model_part = model::Kinematics(world.real).solve(world.values);
-  const Eigen::AlignedBox3d body = boxOf(*world.real.parts[0].mesh_part);
-  for (int i = 0; i < 5 && world.kind != "room door"; ++i) {
-    const Eigen::Vector3d size(uniform(random, 0.06, 0.2), uniform(random, 0.06, 0.25), uniform(random, 0.08, 0.25));
-    const Eigen::Vector3d low = body.min() + 0.5 * size + Eigen::Vector3d(0.03, 0.05, 0.13);
-    const Eigen::Vector3d high = body.max() - 0.5 * size - Eigen::Vector3d(0.08, 0.05, 0.06);
-    if ((high - low).minCoeff() > 0.0) {
-      const Eigen::Vector3d place(uniform(random, low.x(), high.x()), uniform(random, low.y(), high.y()),
-                                  uniform(random, low.z(), high.z()));
-      scene.add(box(size), world.T_map_model * at(place.x(), place.y(), place.z()));
-    }
-  }
-  for (const model::ModelJoint& joint : world.real.joints) {
-    if (joint.type == model::MotionType::kPrismatic && joint.name.find("basket") == std::string::npos) {
-      const auto part = static_cast<std::size_t>(joint.child);
-      const Eigen::AlignedBox3d drawer = boxOf(*world.real.parts[part].mesh_part);
-      const double height_m = 0.4 * drawer.sizes().z();
-      const double x = uniform(random, drawer.min().x() + 0.1, drawer.max().x() - 0.2);
-      const double y = uniform(random, 0.5, -0.5) * (drawer.sizes().y() - 0.2);
-      scene.add(box({0.12, 0.12, height_m}), world.T_map_model * T_model_part[part] * at(x, y, drawer.min().z() + 0.6 * height_m + 0.02));
-    }
-  }
-}
-
-void addRoom(const World& world, render::Scene& scene) {
-  scene.add(box({14.0, 14.0, 0.1}), world.T_map_model * at(0.0, 0.0, -0.05));
-  const double back_m = boxOf(*world.real.parts[0].mesh_part).min().x();
-  if (world.kind != "room door") {
-    scene.add(box({0.1, 12.0, 3.0}), world.T_map_model * at(back_m - 0.06, 0.0, 1.5));
-    return;
-  }
-  const double half_m = boxOf(*world.real.parts[0].mesh_part).max().y();
-  scene.add(box({0.1, 12.0, 3.0}), world.T_map_model * at(-2.5, 0.0, 1.5));
-  for (const double side : {-1.0, 1.0}) {
-    scene.add(box({0.10, 4.0, 3.0}), world.T_map_model * at(0.0, side * (half_m + 2.0), 1.5));
-  }
-}
-
-/// A person between camera and piece, so wide that a share of the piece is hidden.
-void addPerson(const World& world, double share, render::Scene& scene, Random& random) {
-  constexpr double kOnTheWay = 0.55;  // from the piece to the camera
-  const Eigen::AlignedBox3d body = boxOf(*world.real.parts[0].mesh_part);
-  const double width_m = share * 1.3 * body.sizes().y() * (1.0 - kOnTheWay);
-  const Eigen::Vector3d to_camera = world.T_map_camera.translation() - world.T_map_model.translation();
-  const Eigen::Vector3d across = Eigen::Vector3d(-to_camera.y(), to_camera.x(), 0.0).normalized();
-  const double aside_m = uniform(random, -0.35, 0.35) * body.sizes().y() * (1.0 - kOnTheWay);
-  Eigen::Isometry3d T_map_person = Eigen::Isometry3d::Identity();
-  T_map_person.translation() = world.T_map_model.translation() + kOnTheWay * to_camera + aside_m * across;
-  T_map_person.translation().z() = 0.85;
-  T_map_person.linear().col(0) = Eigen::Vector3d(to_camera.x(), to_camera.y(), 0.0).normalized();
-  T_map_person.linear().col(1) = across;
-  scene.add(box({0.2, width_m, 1.9}), T_map_person);
-}
-
-World makeWorld(int number, const TrialSettings& settings, Random& random) {
-  const Kind& kind = kinds()[static_cast<std::size_t>(number) % kinds().size()];
-  World world;
-  world.kind = kind.name;
-  world.real = test::trulyBuilt(kind.shape, settings.dimension_m, random);
-  disturbAxes(world.real, settings, random);
-  world.believed = test::believed(kind.shape);
-  world.values = randomState(world.real, world.believed, random);
-  world.T_map_model = at(uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0), 0.0) *
-                      Eigen::AngleAxisd(uniform(random, -std::numbers::pi, std::numbers::pi), Eigen::Vector3d::UnitZ());
-  const Eigen::AlignedBox3d body = boxOf(*world.real.parts[0].mesh_part);
-  const double off_axis_rad = uniform(random, -60.0, 60.0) * kDegree;
-  world.T_map_camera = test::cameraBefore(world.T_map_model, uniform(random, 0.8, 2.5) + body.max().x(), off_axis_rad, body.center().z());
-  return world;
-}
-
-Eigen::Isometry3d believedPlace(const World& world, const TrialSettings& settings, Random& random) {
-  const double heading_rad = uniform(random, -std::numbers::pi, std::numbers::pi);
-  const double x = settings.placement_m * normal(random) + settings.shift_m * std::cos(heading_rad);
-  const double y = settings.placement_m * normal(random) + settings.shift_m * std::sin(heading_rad);
-  const double side = uniform(random, -1.0, 1.0) < 0.0 ? -1.0 : 1.0;
-  const double yaw_deg = settings.placement_deg * normal(random) + side * settings.shift_deg;
-  return world.T_map_model * at(x, y, 0.0) * Eigen::AngleAxisd(yaw_deg * kDegree, Eigen::Vector3d::UnitZ());
-}
-
-/// By part of the model: pixels that show it and have a reading of it, over those of its largest face, seen straight on from there.
-std::vector<double> visibleShares(const World& world, const render::View& view, const cv::Mat& depth_m, const camera::PinholeCamera& camera,
-                                  const std::vector<int>& part_of_scene) {
-  constexpr float kSame_m = 0.04F;
-  std::vector<double> shares(world.real.parts.size(), 0.0);
-  for (int v = 0; v < view.part.rows; ++v) {
-    for (int u = 0; u < view.part.cols; ++u) {
-      const int shown = view.part.at<int>(v, u);
-      const int part = shown < 0 ? -1 : part_of_scene[static_cast<std::size_t>(shown)];
-      if (part >= 0 && std::abs(depth_m.at<float>(v, u) - view.depth_m.at<float>(v, u)) < kSame_m) {
-        shares[static_cast<std::size_t>(part)] += 1.0;
-      }
-    }
-  }
-  const std::vector<Eigen::Isometry3d> T_model_part = model::Kinematics(world.real).solve(world.values);
-  for (std::size_t part = 0; part < shares.size(); ++part) {
-    if (world.real.parts[part].mesh_part) {
-      const Eigen::AlignedBox3d box = boxOf(*world.real.parts[part].mesh_part);
-      std::array<double, 3> sizes = {box.sizes().x(), box.sizes().y(), box.sizes().z()};
-      std::sort(sizes.begin(), sizes.end());
-      const double far_m = (world.T_map_camera.inverse() * world.T_map_model * T_model_part[part] * box.center()).norm();
-      shares[part] /= sizes[1] * sizes[2] * camera.fx * camera.fy / (far_m * far_m);
-    }
-  }
-  return shares;
-}
-
-camera::PinholeCamera cameraOf(camera::DepthSensorKind sensor) {
-  return sensor == camera::DepthSensorKind::kKinect2 ? camera::nominalDepthCamera(sensor) : test::kinectCamera();
+JointTrial judged(const registration::JointEstimate& joint, const World& world, const registration::Standing& believed,
+                  const std::vector<double>& visible_shares) {
+  const auto index = static_cast<std::size_t>(joint.joint);
+  JointTrial trial;
+  trial.kind = world.kind;
+  trial.joint = joint.name;
+  trial.is_turn = joint.evidence.is_turn;
+  trial.status = joint.status;
+  trial.true_value = world.values[index];
+  trial.prior = believed.joint_values[index];
+  trial.value = joint.value;
+  trial.variance = joint.variance;
+  trial.confidence = joint.confidence;
+  trial.visible = visible_shares[static_cast<std::size_t>(world.real.joints[index].child)];
+  trial.sight = joint.sight;
+  return trial;
 }
 
 }  // namespace
@@ -234,71 +40,33 @@ bool JointTrial::isRight() const {
   return error() <= (is_turn ? 5.0 * kDegree : 0.02);
 }
 
-const std::vector<std::string>& trialKinds() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> listed;
-    for (const Kind& kind : kinds()) {
-      listed.push_back(kind.name);
-    }
-    return listed;
-  }();
-  return names;
+registration::Standing believedAnywhere(const World& world, const WorldSettings& settings, Random& random) {
+  registration::Standing believed{believedPlace(world, settings, random), {}};
+  for (const model::ModelJoint& joint : world.believed.joints) {
+    believed.joint_values.push_back(std::uniform_real_distribution<double>(joint.lower, joint.upper)(random));
+  }
+  return believed;
 }
 
 PieceTrial runTrial(int number, const TrialSettings& settings) {
   Random random(settings.seed * 1'000'003 + static_cast<std::uint64_t>(number));
-  const World world = makeWorld(number, settings, random);
-  render::Scene scene;
-  scene.add(world.real, world.T_map_model, world.values);
-  std::vector<int> part_of_scene;
-  for (const render::ScenePart& part : scene.parts()) {
-    part_of_scene.push_back(part.part);
-  }
-  addRoom(world, scene);
-  if (settings.has_contents) {
-    addContents(world, scene, random);
-  }
-  if (settings.occluded > 0.0) {
-    addPerson(world, settings.occluded, scene, random);
-  }
-  part_of_scene.resize(scene.parts().size(), -1);
-  scene.commit();
-  const camera::PinholeCamera camera = cameraOf(settings.sensor);
-  const render::View view = test::viewOf(scene, camera, world.T_map_camera);
-  const cv::Mat depth_m = test::sensed(view, camera, settings.sensor, static_cast<std::uint64_t>(number) + settings.seed);
-
-  registration::Standing believed{believedPlace(world, settings, random), {}};
-  for (const model::ModelJoint& joint : world.believed.joints) {
-    believed.joint_values.push_back(uniform(random, joint.lower, joint.upper));
-  }
+  const World world = makeWorld(number, settings.world, random);
+  const Picture picture = takePicture(world, settings.world, static_cast<std::uint64_t>(number) + settings.seed, random);
+  const registration::Standing believed = believedAnywhere(world, settings.world, random);
   registration::ArticulatedRegistration registration(world.believed, settings.config);
   PieceTrial trial;
   trial.number = number;
   trial.kind = world.kind;
   const std::clock_t begin = std::clock();
-  const registration::Scan scan = registration::makeScan(depth_m, camera, {});
+  const registration::Scan scan = registration::makeScan(picture.depth_m, picture.camera, {});
   const registration::ArticulatedResult result = registration.run(scan, world.T_map_camera, believed);
   trial.ms = 1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-
   const Eigen::Isometry3d T_true_found = world.T_map_model.inverse() * result.T_map_model;
   trial.base_error_m = T_true_found.translation().norm();
   trial.base_error_deg = Eigen::AngleAxisd(T_true_found.linear()).angle() / kDegree;
-  const std::vector<double> shares = visibleShares(world, view, depth_m, camera, part_of_scene);
+  const std::vector<double> visible_shares = visibleShares(world, picture);
   for (const registration::JointEstimate& joint : result.joints) {
-    const auto index = static_cast<std::size_t>(joint.joint);
-    JointTrial found;
-    found.kind = world.kind;
-    found.joint = joint.name;
-    found.is_turn = joint.evidence.is_turn;
-    found.status = joint.status;
-    found.true_value = world.values[index];
-    found.prior = believed.joint_values[index];
-    found.value = joint.value;
-    found.variance = joint.variance;
-    found.confidence = joint.confidence;
-    found.visible = shares[static_cast<std::size_t>(world.real.joints[index].child)];
-    found.sight = joint.sight;
-    trial.joints.push_back(found);
+    trial.joints.push_back(judged(joint, world, believed, visible_shares));
   }
   return trial;
 }

@@ -6,22 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "core/camera/sensor/depth_sensor.h"
+#include "bench/articulated/world.h"
 #include "registration/articulated/articulated_registration.h"
 
 namespace oikos::bench {
 
 struct TrialSettings {
-  camera::DepthSensorKind sensor = camera::DepthSensorKind::kKinect1;
-  double dimension_m = 0.005;  ///< deviation of each length from the model's
-  double axis_m = 0.003;       ///< of each coordinate of a joint's origin,
-  double axis_deg = 0.5;       ///< of its turn about any axis
-  double placement_m = 0.005;  ///< of x and y of the piece
-  double placement_deg = 0.3;  ///< of its yaw
-  double shift_m = 0.0;        ///< the piece stands so far from where it is believed, in any direction,
-  double shift_deg = 0.0;      ///< and is turned so far, to either side
-  double occluded = 0.0;       ///< share of the piece's width that a person stands before
-  bool has_contents = true;    ///< boxes that no model has, on shelves and in drawers
+  WorldSettings world;
   std::uint64_t seed = 1;
   registration::ArticulatedConfig config;
 };
@@ -54,7 +45,9 @@ struct PieceTrial {
   double ms = 0.0;  ///< of processor time: normals and registration, the model being loaded
 };
 
-[[nodiscard]] const std::vector<std::string>& trialKinds();
+/// Where the piece and its joints are believed to be: the joints anywhere in their ranges.
+[[nodiscard]] registration::Standing believedAnywhere(const World& world, const WorldSettings& settings, Random& random);
+
 /// The kinds take turns.
 [[nodiscard]] PieceTrial runTrial(int number, const TrialSettings& settings);
 

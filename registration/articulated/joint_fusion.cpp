@@ -163,7 +163,7 @@ std::vector<std::size_t> bestSplits(const std::vector<std::vector<double>>& log_
 
 /// Mean and spread about the best bin, and how much of the posterior lies there.
 void conclude(const Bins& bins, const std::vector<double>& total, const JointEvidence& evidence, const JointDecisionConfig& config,
-              JointSpan& span) {
+              bool has_witness, JointSpan& span) {
   const auto best = static_cast<std::size_t>(std::max_element(total.begin(), total.end()) - total.begin());
   const double window = evidence.is_turn ? config.window_deg * kDegree : config.window_m;
   double all = 0.0;
@@ -186,10 +186,10 @@ void conclude(const Bins& bins, const std::vector<double>& total, const JointEvi
   span.confidence = near / all;
   const double max_sigma = evidence.is_turn ? config.max_sigma_deg * kDegree : config.max_sigma_m;
   const auto filled = static_cast<double>(std::count(likely.begin(), likely.end(), 1)) / static_cast<double>(likely.size());
-  if (span.confidence >= config.min_confidence && std::sqrt(span.variance) <= max_sigma) {
+  if (has_witness && span.confidence >= config.min_confidence && std::sqrt(span.variance) <= max_sigma) {
     span.status = JointStatus::kFound;
   } else {
-    span.status = filled <= config.max_spread ? JointStatus::kAmbiguous : JointStatus::kNotObservable;
+    span.status = has_witness && filled <= config.max_spread ? JointStatus::kAmbiguous : JointStatus::kNotObservable;
   }
 }
 
@@ -239,15 +239,17 @@ std::vector<JointSpan> fuse(const std::vector<JointSighting>& sightings, const J
   for (std::size_t k = 0; k < splits.size(); ++k) {
     const std::size_t end = k + 1 < splits.size() ? splits[k + 1] : kept.size();
     SpanSum sum(bins.count, config.repeated);
+    bool has_witness = false;  // images that could not tell do not add up to one that can
     for (std::size_t i = splits[k]; i < end; ++i) {
       sum.add(views[i], log_chances[i]);
+      has_witness |= kept[i].status == JointStatus::kFound || kept[i].status == JointStatus::kAmbiguous;
     }
     JointSpan span;
     span.first = indices[splits[k]];
     span.last = indices[end - 1];
     span.first_ns = kept[splits[k]].stamp_ns;
     span.last_ns = kept[end - 1].stamp_ns;
-    conclude(bins, sum.total(), kept.front().evidence, config.decision, span);
+    conclude(bins, sum.total(), kept.front().evidence, config.decision, has_witness, span);
     spans.push_back(span);
   }
   return spans;

@@ -59,8 +59,9 @@ struct JointSpan {
 };
 
 /// Sightings of one joint in order of time, all over the same values, split where a change explains them better than standing still does,
-/// and fused in between. A joint that moves slowly comes out as many short spans. Sightings that do not see the joint are left out; none:
-/// no span. Time O(n^2 * bins). Throws ContractViolation for a configuration that is not valid, sightings out of order or of other values.
+/// and fused in between; a span none of whose images has found the joint, or a few values of it, has not found it either. A joint that
+/// moves slowly comes out as many short spans. Sightings that do not see the joint are left out; none: no span. Time O(n^2 * bins). Throws
+/// ContractViolation for a configuration that is not valid, sightings out of order or of other values.
 [[nodiscard]] std::vector<JointSpan> fuse(const std::vector<JointSighting>& sightings, const JointFusionConfig& config);
 
 }  // namespace oikos::registration

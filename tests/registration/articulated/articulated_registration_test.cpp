@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/base/error.h"
@@ -133,6 +134,42 @@ TEST(ArticulatedRegistration, ADoorSeenFromBehindIsNotFound) {
   const ArticulatedResult result = world.registered({0.0});
   EXPECT_NE(result.joints[0].status, JointStatus::kFound);
   EXPECT_NE(result.joints[0].status, JointStatus::kAmbiguous);
+}
+
+/// A thin leaf on a block, whose plane goes through the camera: what is left of it are a few pixels (S361).
+TEST(ArticulatedRegistration, ALeafSeenEdgeOnIsNotFound) {
+  model::ArticulatedModel block;
+  block.name = "block";
+  block.parts.push_back({"body", cuboid(Eigen::AlignedBox3d(Eigen::Vector3d(-0.3, -0.3, 0.0), Eigen::Vector3d(0.28, 0.3, 0.85)))});
+  block.parts.push_back({"leaf", cuboid(Eigen::AlignedBox3d(Eigen::Vector3d(-0.001, 0.0, -0.4), Eigen::Vector3d(0.001, 0.58, 0.4)))});
+  model::ModelJoint hinge;
+  hinge.name = "hinge";
+  hinge.type = model::MotionType::kRevolute;
+  hinge.child = 1;
+  hinge.T_parent_joint.translation() = Eigen::Vector3d(0.3, -0.29, 0.43);
+  hinge.axis_joint = -Eigen::Vector3d::UnitZ();
+  hinge.upper = 110.0 * kDegree;
+  block.joints.push_back(hinge);
+  DoorWorld world(block);
+  world.lookFrom(1.8, 0.0);
+  const Eigen::Vector3d eye_model = world.T_map_model.inverse() * world.T_map_camera.translation();
+  world.values = {std::atan2(eye_model.x() - 0.3, eye_model.y() + 0.29)};
+  EXPECT_EQ(world.registered({0.0}).joints[0].status, JointStatus::kNotObservable);
+  world.values = {40.0 * kDegree};
+  const ArticulatedResult seen = world.registered({0.0});
+  EXPECT_EQ(seen.joints[0].status, JointStatus::kFound);
+  EXPECT_NEAR(seen.joints[0].value, world.values[0], kDoorTolerance_rad);
+}
+
+/// What has no limits is looked for about where it is believed to be.
+TEST(ArticulatedRegistration, ASlideWithoutLimitsIsFound) {
+  DoorWorld world("drawer_unit", {{"drawer_count", "1"}});
+  world.values = {0.25};
+  world.model.joints[0].lower = -std::numeric_limits<double>::infinity();
+  world.model.joints[0].upper = std::numeric_limits<double>::infinity();
+  const ArticulatedResult result = world.registered({0.0});
+  EXPECT_EQ(result.joints[0].status, JointStatus::kFound);
+  EXPECT_NEAR(result.joints[0].value, 0.25, kDrawerTolerance_m);
 }
 
 TEST(ArticulatedRegistration, NoReadingsNoView) {

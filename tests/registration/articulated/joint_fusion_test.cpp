@@ -146,6 +146,19 @@ TEST(JointFusion, ImagesThatTellNothingChangeNothing) {
   EXPECT_EQ(alone[0].status, JointStatus::kNotObservable);
 }
 
+/// What each image could not tell by itself is not found because there are many of them.
+TEST(JointFusion, UnsureImagesDoNotAddUp) {
+  std::vector<JointSighting> sightings = doorAt({20.0, 20.0, 20.0, 20.0, 20.0, 20.0});
+  for (JointSighting& sighting : sightings) {
+    sighting.status = JointStatus::kNotObservable;
+  }
+  const std::vector<JointSpan> spans = fuse(sightings, {});
+  ASSERT_EQ(spans.size(), 1U);
+  EXPECT_EQ(spans[0].status, JointStatus::kNotObservable);
+  sightings[3].status = JointStatus::kFound;
+  EXPECT_EQ(fuse(sightings, {})[0].status, JointStatus::kFound);
+}
+
 /// Two halves of what an image left open, each told by another one.
 TEST(JointFusion, AnAmbiguousImageIsSettledByAnother) {
   JointSighting either = blankSighting(0);
