@@ -26,10 +26,23 @@ struct LensDistortion {
   [[nodiscard]] Eigen::Vector2d distort(const Eigen::Vector2d& undistorted) const;
 };
 
+/// What the distances of a depth camera are wrong by: a reading of z metres at the image plane's point (x, y, 1) is multiplied by
+/// 1 + constant + per_m * z + across * x + down * y. (A plane for the multiplier image of Teichman, Miller & Thrun, "Unsupervised intrinsic
+/// calibration of depth sensors via SLAM", RSS 2013.)
+struct DepthCorrection {
+  double constant = 0.0;
+  double per_m = 0.0;
+  double across = 0.0;
+  double down = 0.0;
+
+  [[nodiscard]] bool isZero() const { return constant == 0.0 && per_m == 0.0 && across == 0.0 && down == 0.0; }
+};
+
 /// A depth camera that is not the colour camera; it has no lens distortion.
 struct DepthCamera {
   PinholeCamera pinhole;
   Eigen::Isometry3d T_color_depth = Eigen::Isometry3d::Identity();
+  DepthCorrection correction;
 };
 
 /// What `camera.toml` says about the camera of a recording.

@@ -121,14 +121,28 @@ class TableReader {
   std::string prefix_;
 };
 
+DepthCorrection readCorrection(const TableReader& reader) {
+  constexpr double kMost = 0.2;
+  const auto c = reader.getNumbers<4>("correction", "constant, per metre, across, down");
+  if (std::any_of(c.begin(), c.end(), [](double share) { return std::abs(share) > kMost; })) {
+    reader.fail("correction",
+                "each share must be from -0.2 to 0.2: a reading is multiplied by 1 + constant + per_m * z + across * x + down * y");
+  }
+  return {c[0], c[1], c[2], c[3]};
+}
+
 DepthCamera readDepthCamera(const TableReader& parent, const std::string& file) {
   const toml::table* table = parent.find("depth")->as_table();
   if (table == nullptr) {
     parent.fail("depth", "must be a table: [depth] with width, height, fx, fy, cx, cy, T_color_depth");
   }
   const TableReader reader(*table, file, "depth.");
-  reader.rejectUnknownKeys({"width", "height", "fx", "fy", "cx", "cy", "T_color_depth"});
-  return {reader.getPinhole(), reader.getPose("T_color_depth")};
+  reader.rejectUnknownKeys({"width", "height", "fx", "fy", "cx", "cy", "T_color_depth", "correction"});
+  DepthCamera depth{reader.getPinhole(), reader.getPose("T_color_depth"), {}};
+  if (reader.find("correction") != nullptr) {
+    depth.correction = readCorrection(reader);
+  }
+  return depth;
 }
 
 std::int64_t readStart(const TableReader& reader) {

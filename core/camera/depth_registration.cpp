@@ -87,6 +87,12 @@ void liftReadings(const std::uint16_t* __restrict readings, float unit_m, std::s
   }
 }
 
+void correctReadings(const float* __restrict factor, float factor_per_m, std::size_t count, float* __restrict reading_m) {
+  for (std::size_t i = 0; i < count; ++i) {
+    reading_m[i] *= factor[i] + factor_per_m * reading_m[i];
+  }
+}
+
 float clampPixel(float pixel) {
   const float not_left = pixel > kNowhere_px ? pixel : kNowhere_px;
   return not_left < -kNowhere_px ? not_left : -kNowhere_px;
@@ -106,6 +112,7 @@ DepthRegistration::DepthRegistration(const Calibration& calibration, const Recti
     : color_(calibration.color), stored_(calibration.color), unit_m_(static_cast<float>(1.0 / calibration.depth_scale)) {
   if (calibration.depth) {
     prepareSplatting(*calibration.depth);
+    prepareCorrection(*calibration.depth);
   } else {
     source_index_ = rectifier.sourceIndex();
   }
@@ -139,6 +146,20 @@ void DepthRegistration::prepareSplatting(const DepthCamera& depth) {
   is_single_pixel_ = offset_.z() >= 0.0F && half_px.maxCoeff() * static_cast<float>(largest_growth) <= 0.5F;
 }
 
+void DepthRegistration::prepareCorrection(const DepthCamera& depth) {
+  if (depth.correction.isZero()) {
+    return;
+  }
+  factor_per_m_ = static_cast<float>(depth.correction.per_m);
+  for (int v = 0; v < stored_.height; ++v) {
+    for (int u = 0; u < stored_.width; ++u) {
+      const Eigen::Vector3d ray = stored_.ray(u, v);
+      factor_.push_back(
+          static_cast<float>(1.0 + depth.correction.constant + depth.correction.across * ray.x() + depth.correction.down * ray.y()));
+    }
+  }
+}
+
 cv::Mat DepthRegistration::toMetres(const cv::Mat& stored) const {
   OIKOS_CHECK(stored.type() == CV_16UC1 && stored.cols == stored_.width && stored.rows == stored_.height);
   return is_separate_ ? splat(stored) : convert(stored);
@@ -166,6 +187,9 @@ void DepthRegistration::project(const cv::Mat& stored, int v, ProjectedRow& row)
   const std::size_t first = static_cast<std::size_t>(v) * static_cast<std::size_t>(stored_.width);
   const std::size_t count = row.z_m.size();
   liftReadings(stored.ptr<std::uint16_t>(v), unit_m_, count, row.reading_m.data());
+  if (!factor_.empty()) {
+    correctReadings(&factor_[first], factor_per_m_, count, row.reading_m.data());
+  }
   const float* __restrict reading_m = row.reading_m.data();
   const float* __restrict ray_u = &ray_u_[first];
   const float* __restrict ray_v = &ray_v_[first];

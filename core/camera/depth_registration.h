@@ -35,6 +35,7 @@ class DepthRegistration {
   [[nodiscard]] cv::Mat splat(const cv::Mat& stored) const;
   void project(const cv::Mat& stored, int v, ProjectedRow& row) const;
   void prepareSplatting(const DepthCamera& depth);
+  void prepareCorrection(const DepthCamera& depth);
 
   PinholeCamera color_;
   PinholeCamera stored_;
@@ -46,6 +47,8 @@ class DepthRegistration {
   std::vector<float> ray_v_;
   std::vector<float> ray_z_;
   Eigen::Vector3f offset_ = Eigen::Vector3f::Zero();
+  std::vector<float> factor_;  ///< a reading z is really z * (factor + factor_per_m * z); empty: it is what it says
+  float factor_per_m_ = 0.0F;
   cv::Size2f half_splat_px_;      ///< of a surface at the same distance from both cameras
   bool is_single_pixel_ = false;  ///< no splat is larger than a colour pixel
 };

@@ -75,6 +75,19 @@ TEST_F(CalibrationFile, ReadsEveryKey) {
   EXPECT_EQ(calibration.depth->T_color_depth.translation().x(), -0.032);
 }
 
+TEST_F(CalibrationFile, DepthMayBeCorrected) {
+  EXPECT_TRUE(readCalibration(write(kFull)).depth->correction.isZero());
+  const std::string pose = "T_color_depth = [-0.032, 0.0076, 0.0, 0.0, 0.0, 0.0, 1.0]";
+  const DepthCorrection correction =
+      readCalibration(writeChanged(pose, pose + "\ncorrection = [-0.01, 0.002, 0.03, -0.04]")).depth->correction;
+  EXPECT_EQ(correction.constant, -0.01);
+  EXPECT_EQ(correction.per_m, 0.002);
+  EXPECT_EQ(correction.across, 0.03);
+  EXPECT_EQ(correction.down, -0.04);
+  expectRejected(pose, pose + "\ncorrection = [-0.01, 0.002, 0.03]", {"camera.toml:20", "depth.correction", "4 numbers"});
+  expectRejected(pose, pose + "\ncorrection = [-0.01, 0.3, 0.03, 0.0]", {"camera.toml:20", "depth.correction", "from -0.2 to 0.2"});
+}
+
 TEST_F(CalibrationFile, StartMayBeText) {
   const auto file = writeChanged("2024-05-17T09:30:00.5+02:00", "\"2024-05-17T07:30:00.5Z\"");
   EXPECT_EQ(readCalibration(file).start_ns, 1715931000500000000);

@@ -49,6 +49,34 @@ World makeWorld(const char* name, double depth_size, const Eigen::Vector3d& t_co
   return world;
 }
 
+/// A wall that the camera reads wrongly by a share that depends on distance and place is where it is again.
+TEST(DepthCorrection, AWallThatIsReadWronglyIsMadeEven) {
+  Calibration calibration = makeWorld("corrected", 1.0, {0.0, 0.0, 0.0}, 0.0).calibration;
+  calibration.depth->correction = {0.01, -0.004, 0.02, -0.03};
+  const DepthCorrection& c = calibration.depth->correction;
+  cv::Mat stored(240, 320, CV_16UC1);
+  for (int v = 0; v < stored.rows; ++v) {
+    for (int u = 0; u < stored.cols; ++u) {
+      const Eigen::Vector3d ray = calibration.depth->pinhole.ray(u, v);
+      const double b = 1.0 + c.constant + c.across * ray.x() + c.down * ray.y();
+      const double reading_m = 2.0 * kFar_m / (b + std::sqrt(b * b + 4.0 * c.per_m * kFar_m));  // z (b + per_m z) = far
+      stored.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(std::lround(reading_m * 10000.0));
+    }
+  }
+  stored.at<std::uint16_t>(100, 100) = 0;
+  const cv::Mat depth_m = DepthRegistration(calibration, Rectifier(calibration.color, {})).toMetres(stored);
+  int readings = 0;
+  for (int v = 20; v < depth_m.rows - 20; ++v) {
+    for (int u = 20; u < depth_m.cols - 20; ++u) {
+      if (!std::isnan(depth_m.at<float>(v, u))) {
+        ASSERT_NEAR(depth_m.at<float>(v, u), kFar_m, 1e-4) << u << "," << v;
+        ++readings;
+      }
+    }
+  }
+  EXPECT_GT(readings, 50000);
+}
+
 class Splatting : public testing::TestWithParam<World> {};
 
 TEST_P(Splatting, TheFarWallNeverShowsThroughTheBoard) {
