@@ -113,6 +113,8 @@ class Aligner {
     const int readings = counts.model - counts.unread;
     result.iterations = iterations_;
     result.inliers = equations_.inliers;
+    result.before = counts.occluded;
+    result.through = counts.seen_through;
     result.overlap = equations_.inliers / std::max(1.0, static_cast<double>(readings - counts.occluded));
     result.fit = equations_.inliers / std::max(1.0, static_cast<double>(readings));
     result.outline = equations_.edge_inliers / std::max(1.0, static_cast<double>(outline_places_));

@@ -75,6 +75,8 @@ struct [[nodiscard]] AlignResult {
   std::vector<std::string> unobserved;  ///< of a degenerate result: the degrees of freedom that mostly make up what was not observed
   int iterations = 0;
   int inliers = 0;
+  int before = 0;          ///< pixels of the model with a reading in front of it,
+  int through = 0;         ///< and with one behind it
   double overlap = 0.0;    ///< inliers / pixels of the model with a reading and nothing in front
   double fit = 0.0;        ///< inliers / pixels of the model with a reading: what is hidden counts against a pose
   double outline = 0.0;    ///< share of the model\'s outline that is one in the scan

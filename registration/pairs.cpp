@@ -49,8 +49,10 @@ Pairing projectivePairs(const render::View& view, const Scan& scan, const Eigen:
       const bool faces = seen.normal_camera.isZero() || seen.normal_camera.cast<double>().dot(normal) > rules.min_normal_cos;
       if (residual_m > rules.gate_m) {
         ++found.counts.occluded;
-      } else if (residual_m < -rules.gate_m || !faces) {
+      } else if (residual_m < -rules.gate_m) {
         ++found.counts.seen_through;
+      } else if (!faces) {
+        ++found.counts.turned;
       } else {
         const double depth = static_cast<double>(seen.point_camera.z());
         found.pairs.push_back({T_map_camera * (static_cast<double>(depth_m[u]) * ray), T_map_camera.linear() * normal,

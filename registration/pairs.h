@@ -39,7 +39,8 @@ struct PairCounts {
   int model = 0;         ///< all of them
   int unread = 0;        ///< no depth there, or seen at a grazing angle
   int occluded = 0;      ///< something stands in front
-  int seen_through = 0;  ///< the scan goes on behind the surface, or shows one that faces another way: the model is not there
+  int seen_through = 0;  ///< the scan goes on behind the surface: the model is not there
+  int turned = 0;        ///< it is as near, but faces another way
 };
 
 struct Pairing {

@@ -36,7 +36,8 @@ struct Hypothesis {
   std::vector<int> dropped;   ///< surfaces of pieces that stay
   Solution solution;
   std::vector<SurfaceCheck> checks;
-  double score = 0.0;  ///< pixels that agree less those that contradict
+  double score = 0.0;      ///< pixels that agree less those that contradict
+  double explained = 0.0;  ///< as explains()
 
   [[nodiscard]] bool contradicts(std::size_t surface) const { return used[surface] != 0 && checks[surface].contradiction > 1.0; }
   [[nodiscard]] bool contradictsAnywhere() const {
@@ -52,7 +53,7 @@ struct Hypothesis {
 class Refiner {
  public:
   Refiner(LandmarkScene& scene, const Scan& scan, const CameraPrior& prior, const LandmarkConfig& config, std::optional<int> only)
-      : scene_(scene), scan_(scan), edges_(scan), prior_(prior), config_(config), only_(only) {}
+      : scene_(scene), scan_(scan), edges_(scan), prior_(prior), config_(config), only_(only), start_(prior.T_map_camera) {}
 
   LandmarkRefinement run() {
     LandmarkRefinement answer;
@@ -64,7 +65,7 @@ class Refiner {
       return answer;
     }
     evaluate(best_, prior_.T_map_camera);
-    if (best_.contradictsAnywhere() || best_.solution.fit.overlap < config_.good_overlap) {
+    if (isWide(prior_, config_.search) || best_.contradictsAnywhere() || best_.solution.fit.overlap < config_.good_overlap) {
       tryOtherStarts();
     }
     answer.rounds = 1;
@@ -106,28 +107,30 @@ class Refiner {
     h.solution.T_map_camera = motion.T_map_camera();
     h.checks = checkSurfaces(scene_, motion, scan_, edges_, h.solution.fit.covariance, config_.check, config_.align.threads);
     h.score = 0.0;
+    Readings readings{static_cast<int>(scan_.points.size())};
     for (std::size_t s = 0; s < h.used.size(); ++s) {
-      h.score += h.contradicts(s) ? -h.checks[s].visible : h.used[s] * h.checks[s].agreeing;
+      readings.on += h.checks[s].agreeing;
+      readings.through += h.checks[s].through;
+      readings.before += h.checks[s].before + h.checks[s].just_before;
+      h.score += h.contradicts(s) ? -h.checks[s].visible() : h.used[s] * h.checks[s].agreeing;
     }
+    h.explained = explains(readings, h.solution.T_map_camera, prior_, config_.search);
   }
 
   /// Rows of equal fronts, and far turns, have false answers beside the true one.
   void tryOtherStarts() {
-    const Eigen::Vector3d right_map = prior_.T_map_camera.linear().col(0);
-    const Eigen::Vector2d aside = config_.aside_step_m * right_map.head<2>().normalized();
-    for (const double side : {-1.0, 1.0}) {
-      geometry::Vector6d turn = geometry::Vector6d::Zero();
-      turn(5) = side * config_.yaw_step_deg * kDegree;
-      geometry::Vector6d way = geometry::Vector6d::Zero();
-      way.head<2>() = side * aside;
-      for (const geometry::Vector6d& twist : {turn, way}) {
-        Hypothesis other = best_;
-        evaluate(other, motionAbout(prior_.T_map_camera * prior_.robot_camera, twist) * prior_.T_map_camera);
-        if (other.score > best_.score) {
-          best_ = std::move(other);
-        }
+    scene_.show(best_.used);
+    const std::vector<char> used = best_.used;
+    for (const Eigen::Isometry3d& T_map_camera_start : findStarts(scene_, scan_, prior_, config_.align, config_.search)) {
+      Hypothesis other;
+      other.used = used;
+      other.moved.assign(scene_.ids().size(), 0.0);
+      evaluate(other, T_map_camera_start);
+      if (other.explained > best_.explained) {
+        best_ = std::move(other);
       }
     }
+    start_ = best_.solution.T_map_camera;
   }
 
   /// Those that contradict most; and the one that most agrees, for it may have pulled the answer to itself.
@@ -158,7 +161,7 @@ class Refiner {
     for (const Unit& suspect : suspects()) {
       Hypothesis without = best_;
       leaveOut(static_cast<std::size_t>(suspect.surface), without);
-      evaluate(without, prior_.T_map_camera);
+      evaluate(without, start_);
       if (next.used.empty() || without.score > next.score) {
         next = std::move(without);
       }
@@ -212,6 +215,8 @@ class Refiner {
         piece.contradiction = best_.moved[i];
       } else if (piece.agreeing >= least) {
         piece.verdict = piece.dropped_parts.empty() ? LandmarkVerdict::kUsed : LandmarkVerdict::kChanged;
+      } else if (!piece.dropped_parts.empty() && piece.agreeing < config_.check.min_pixels) {
+        piece.verdict = LandmarkVerdict::kMoved;  // its fronts are not where they were, and nothing else of it is seen
       }
       piece.weight = agreeing > 0.0 ? piece.agreeing / agreeing : 0.0;
       if (piece.pixels >= least || best_.moved[i] > 0.0) {
@@ -268,6 +273,7 @@ class Refiner {
   const CameraPrior& prior_;
   const LandmarkConfig& config_;
   std::optional<int> only_;
+  Eigen::Isometry3d start_;  ///< of fits without something
   Hypothesis best_;
 };
 
@@ -278,8 +284,6 @@ std::vector<std::string> LandmarkConfig::validate() const {
   rules.between("min_share", min_share, 0.0, 1.0)
       .atLeast("min_landmarks", min_landmarks, 1)
       .atLeast("max_rounds", max_rounds, 1)
-      .greater("yaw_step_deg", yaw_step_deg, 0.0)
-      .greater("aside_step_m", aside_step_m, 0.0)
       .between("good_overlap", good_overlap, 0.0, 1.0)
       .greater("max_deviations", max_deviations, 0.0)
       .atLeast("upright_sigma_m", upright_sigma_m, 0.0)

@@ -13,6 +13,7 @@
 #include "registration/align.h"
 #include "registration/landmark/camera_prior.h"
 #include "registration/landmark/landmark_scene.h"
+#include "registration/landmark/start_search.h"
 #include "registration/landmark/surface_check.h"
 
 namespace oikos::registration {
@@ -20,12 +21,11 @@ namespace oikos::registration {
 struct LandmarkConfig {
   AlignConfig align;
   SurfaceCheckConfig check;
+  StartSearchConfig search;
   double min_share = 0.005;        ///< of the scan's readings; a piece that covers less is not in view
   int min_landmarks = 2;           ///< pieces that must agree; one alone cannot tell whether it was moved
   int max_rounds = 6;              ///< of solving and leaving out what disagrees
-  double yaw_step_deg = 6.0;       ///< a fit that is not good is tried again from turns to both sides,
-  double aside_step_m = 0.12;      ///< and from places to both sides
-  double good_overlap = 0.7;       ///< a fit that is, if nothing contradicts it
+  double good_overlap = 0.7;       ///< a fit that is not, or that something contradicts, is tried again from other starts
   double max_deviations = 5.0;     ///< of the correction, in those of prior and fit together
   double upright_sigma_m = 0.01;   ///< of the camera's height, which is not corrected,
   double upright_sigma_deg = 0.4;  ///< and of its tilt
@@ -34,11 +34,10 @@ struct LandmarkConfig {
   void visit(Visitor&& visitor) {
     visitor("align", align);
     visitor("check", check);
+    visitor("search", search);
     visitor("min_share", min_share);
     visitor("min_landmarks", min_landmarks);
     visitor("max_rounds", max_rounds);
-    visitor("yaw_step_deg", yaw_step_deg);
-    visitor("aside_step_m", aside_step_m);
     visitor("good_overlap", good_overlap);
     visitor("max_deviations", max_deviations);
     visitor("upright_sigma_m", upright_sigma_m);

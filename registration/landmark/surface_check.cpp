@@ -31,34 +31,87 @@ double normalQuantile(double chance) {
   return t - (2.515517 + 0.802853 * t + 0.010328 * t * t) / (1.0 + 1.432788 * t + 0.189269 * t * t + 0.001308 * t * t * t);
 }
 
-/// The surface of each pixel, -1 where there is none, no reading, or one at too grazing an angle.
-int surfaceAt(const render::View& view, const Scan& scan, const render::Scene& scene, int u, int v) {
-  constexpr float kMinIncidenceCos = 0.17F;
-  const int part = view.part.at<int>(v, u);
-  if (part < 0 || scan.at(u, v).point_camera.z() <= 0.0F) {
-    return -1;
-  }
-  const Eigen::Vector3f ray = scan.camera.ray(u, v).cast<float>();
-  const auto& normal = view.normal_camera.at<cv::Vec3f>(v, u);
-  const float along = -(normal[0] * ray.x() + normal[1] * ray.y() + normal[2] * ray.z());
-  return along < kMinIncidenceCos * ray.norm() ? -1 : scene.parts()[static_cast<std::size_t>(part)].model;
-}
+/// What one reading says about the surface in its pixel.
+enum class Says : unsigned char { kNothing, kThere, kThrough, kJustBefore, kBefore };
 
-/// All readings by surface, and those that go through it: what is before a surface hides it and does not speak about it.
-void countReadings(const render::View& view, const Scan& scan, const render::Scene& scene, double near_m,
-                   std::vector<SurfaceCheck>& checks) {
-  for (int v = 0; v < scan.camera.height; ++v) {
-    for (int u = 0; u < scan.camera.width; ++u) {
-      const int surface = surfaceAt(view, scan, scene, u, v);
-      if (surface >= 0) {
-        SurfaceCheck& check = checks[static_cast<std::size_t>(surface)];
-        ++check.pixels;
-        const double behind_m = static_cast<double>(scan.at(u, v).point_camera.z() - view.depth_m.at<float>(v, u));
-        check.visible += behind_m > near_m ? 1 : 0;
+/// What the readings say, pixel by pixel.
+class Testimony {
+ public:
+  Testimony(const render::View& view, const Scan& scan, const render::Scene& scene, const SurfaceCheckConfig& config)
+      : width_(scan.camera.width),
+        height_(scan.camera.height),
+        surface_(scan.points.size(), -1),
+        says_(scan.points.size(), Says::kNothing) {
+    for (int v = 0; v < height_; ++v) {
+      for (int u = 0; u < width_; ++u) {
+        hear(view, scan, scene, config, u, v);
       }
     }
   }
-}
+
+  void count(std::vector<SurfaceCheck>& checks) const {
+    for (int v = 0; v < height_; ++v) {
+      for (int u = 0; u < width_; ++u) {
+        if (surface_[at(u, v)] >= 0) {
+          SurfaceCheck& check = checks[static_cast<std::size_t>(surface_[at(u, v)])];
+          ++check.pixels;
+          check.agreeing += says_[at(u, v)] == Says::kThere ? 1 : 0;
+          check.before += says_[at(u, v)] == Says::kBefore ? 1 : 0;
+          check.just_before += says_[at(u, v)] == Says::kJustBefore ? 1 : 0;
+          check.through += says_[at(u, v)] == Says::kThrough && hasCompany(u, v) ? 1 : 0;
+        }
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t at(int u, int v) const {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
+  }
+
+  /// Too grazing an angle says nothing.
+  void hear(const render::View& view, const Scan& scan, const render::Scene& scene, const SurfaceCheckConfig& config, int u, int v) {
+    constexpr double kMinIncidenceCos = 0.17;
+    const int part = view.part.at<int>(v, u);
+    const double depth_m = static_cast<double>(scan.at(u, v).point_camera.z());
+    if (part < 0 || depth_m <= 0.0) {
+      return;
+    }
+    const Eigen::Vector3d ray = scan.camera.ray(u, v);
+    const auto& normal = view.normal_camera.at<cv::Vec3f>(v, u);
+    const double along = Eigen::Map<const Eigen::Vector3f>(normal.val).cast<double>().dot(ray);
+    if (-along < kMinIncidenceCos * ray.norm()) {
+      return;
+    }
+    surface_[at(u, v)] = scene.parts()[static_cast<std::size_t>(part)].model;
+    const double before_m = along * (depth_m - static_cast<double>(view.depth_m.at<float>(v, u)));
+    const Eigen::Vector3f& seen = scan.at(u, v).normal_camera;
+    const Eigen::Map<const Eigen::Vector3f> believed(normal.val);
+    const bool is_turned = !seen.isZero() && seen.dot(believed) < static_cast<float>(std::cos(config.max_normal_deg * kDegree));
+    const Says in_front = before_m > config.gate_m ? Says::kBefore : before_m > config.near_m ? Says::kJustBefore : Says::kThere;
+    says_[at(u, v)] = before_m < -config.near_m ? Says::kThrough : is_turned && in_front == Says::kThere ? Says::kNothing : in_front;
+  }
+
+  /// Along an outline a pixel goes past it because the pose is a little off: what counts is where the surface around is gone, too.
+  [[nodiscard]] bool hasCompany(int u, int v) const {
+    int on_surface = 0;
+    int through = 0;
+    for (int y = std::max(0, v - 1); y <= std::min(height_ - 1, v + 1); ++y) {
+      for (int x = std::max(0, u - 1); x <= std::min(width_ - 1, u + 1); ++x) {
+        if (surface_[at(x, y)] == surface_[at(u, v)]) {
+          ++on_surface;
+          through += says_[at(x, y)] == Says::kThrough ? 1 : 0;
+        }
+      }
+    }
+    return through > 1 && 4 * through >= 3 * on_surface;
+  }
+
+  int width_;
+  int height_;
+  std::vector<int> surface_;  ///< -1: none, or no reading
+  std::vector<Says> says_;
+};
 
 /// Solves the surface's own equations along what they observe.
 void solveAlone(const std::vector<Pair>& pairs, const Motion& motion, const StepMatrix& joint, const SurfaceCheckConfig& config,
@@ -88,6 +141,28 @@ void solveAlone(const std::vector<Pair>& pairs, const Motion& motion, const Step
   check.contradiction = squared / chiSquareQuantile(static_cast<int>(observed.cols()), normalQuantile(config.chance));
 }
 
+/// Where most of what is near a surface lies on it, what stands before it is clutter; else the surface itself may have come forward.
+void dropClutter(double near_m, std::vector<Pair>& pairs) {
+  const auto is_before = [near_m](const Pair& pair) { return !pair.is_edge && pair.residual_m() > near_m; };
+  if (2 * std::count_if(pairs.begin(), pairs.end(), is_before) <= static_cast<std::ptrdiff_t>(pairs.size())) {
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_before), pairs.end());
+  }
+}
+
+void judge(const Motion& motion, const StepMatrix& joint, const SurfaceCheckConfig& config, std::vector<Pair>& pairs, SurfaceCheck& check) {
+  dropClutter(config.near_m, pairs);
+  if (static_cast<int>(pairs.size()) >= config.min_pixels) {
+    check.judged = true;
+    solveAlone(pairs, motion, joint, config, check);
+  }
+  if (check.visible() >= config.min_pixels) {
+    check.judged = true;
+    if (check.share() < config.min_share) {
+      check.contradiction = std::max(check.contradiction, config.min_share / std::max(0.01, check.share()));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> SurfaceCheckConfig::validate() const {
@@ -113,31 +188,16 @@ std::vector<SurfaceCheck> checkSurfaces(const LandmarkScene& scene, const Motion
   const Eigen::Isometry3d T_map_camera = motion.T_map_camera();
   const render::View view = render::renderView(scene.scene(), render::CameraRays(scan.camera), {T_map_camera, {}}, view_config);
   std::vector<SurfaceCheck> checks(scene.surfaces().size());
-  countReadings(view, scan, scene.scene(), config.near_m, checks);
+  Testimony(view, scan, scene.scene(), config).count(checks);
   std::vector<std::vector<Pair>> pairs(checks.size());
   const PairRules rules{config.gate_m, std::cos(config.max_normal_deg * kDegree)};
-  const Eigen::Isometry3d T_camera_map = T_map_camera.inverse();
   std::vector<Pair> all = projectivePairs(view, scan, T_map_camera, rules).pairs;
   appendEdgePairs(view, scan, edges, T_map_camera, config.near_m, all);
   for (const Pair& pair : all) {
-    const auto surface = static_cast<std::size_t>(scene.scene().parts()[static_cast<std::size_t>(pair.part)].model);
-    pairs[surface].push_back(pair);
-    if (pair.is_edge) {
-      continue;
-    }
-    const bool agrees = std::abs(pair.residual_m()) < config.near_m;
-    checks[surface].agreeing += agrees ? 1 : 0;
-    const double behind_m = (T_camera_map.linear() * (pair.scan_map - pair.model_map)).z();
-    checks[surface].visible += behind_m > config.near_m ? 0 : 1;  // those are counted already
+    pairs[static_cast<std::size_t>(scene.scene().parts()[static_cast<std::size_t>(pair.part)].model)].push_back(pair);
   }
   for (std::size_t s = 0; s < checks.size(); ++s) {
-    checks[s].judged = checks[s].visible >= config.min_pixels;
-    if (checks[s].judged && static_cast<int>(pairs[s].size()) >= config.min_pixels) {
-      solveAlone(pairs[s], motion, joint, config, checks[s]);
-    }
-    if (checks[s].judged && checks[s].share() < config.min_share) {
-      checks[s].contradiction = std::max(checks[s].contradiction, config.min_share / std::max(0.01, checks[s].share()));
-    }
+    judge(motion, joint, config, pairs[s], checks[s]);
   }
   return checks;
 }

@@ -14,11 +14,11 @@
 namespace oikos::registration {
 
 struct SurfaceCheckConfig {
-  double gate_m = 0.15;            ///< a shift up to here is measured; what stands farther before it counts as an occluder
+  double gate_m = 0.15;            ///< a shift up to here is measured
   double max_normal_deg = 40.0;    ///< between the normals of a pair
   int min_pixels = 40;             ///< visible ones of the scan: fewer are not judged
-  double min_share = 0.65;         ///< of these, pixels that are where the part is
-  double near_m = 0.05;            ///< and how near that is
+  double min_share = 0.65;         ///< of what speaks about it, pixels that are where the part is,
+  double near_m = 0.05;            ///< and how near that is; a reading farther behind went through where the part should be
   double surface_sigma_m = 0.010;  ///< what the model and the sensor may be wrong by
   double normal_sigma_deg = 0.7;   ///< and its planes be turned by
   double min_observability = 10.0;
@@ -40,16 +40,21 @@ struct SurfaceCheckConfig {
 };
 
 struct SurfaceCheck {
-  int pixels = 0;    ///< of the scan that it covers, with a reading
-  int visible = 0;   ///< of these, paired with it or behind it: what is before it hides it
-  int agreeing = 0;  ///< of these, near its surface
+  int pixels = 0;       ///< of the scan that it covers, with a reading
+  int agreeing = 0;     ///< of these, near its surface
+  int through = 0;      ///< of these, behind it, and so are their neighbours: the part is not there
+  int before = 0;       ///< of these, far before it: they hide it and say nothing about it
+  int just_before = 0;  ///< of these, within the gate before it: things on a worktop, or the part itself come forward
   bool judged = false;
   /// The step that would bring the camera to where this part alone has it, along what it observes; and its squared length in deviations
   /// over the value that chance allows: above 1 it has moved.
   Step own;
   double contradiction = 0.0;
 
-  [[nodiscard]] double share() const { return visible > 0 ? static_cast<double>(agreeing) / visible : 0.0; }
+  /// What is just before it may be the part itself, come forward: unless as much is far before it, for then something stands there. And
+  /// clutter is more common, so that it takes two readings of it to outweigh one that agrees.
+  [[nodiscard]] int visible() const { return agreeing + through + (just_before > before ? just_before / 2 : 0); }
+  [[nodiscard]] double share() const { return visible() > 0 ? static_cast<double>(agreeing) / visible() : 0.0; }
 };
 
 /// One check a surface of `scene`, from where `motion` stands; `edges` are those of the scan, `joint` is the covariance of the estimate

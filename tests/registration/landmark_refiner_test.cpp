@@ -47,6 +47,7 @@ struct Room {
                                {"oven", {"oven"}, onFloor(-1.6, 1.9, 0.0)}};
   Eigen::Isometry3d T_map_camera = test::lookAt({0.0, -0.8, 1.2}, {0.0, 3.0, 0.7});
   std::vector<Eigen::Isometry3d> people = {};  ///< T_map_person
+  std::vector<Eigen::Isometry3d> boxes = {};   ///< T_map_box, of what stands about: 12 cm wide and deep, 25 cm high
   camera::DepthSensorKind sensor = camera::DepthSensorKind::kIdeal;
 
   [[nodiscard]] Piece& piece(const std::string& id) {
@@ -63,6 +64,9 @@ struct Room {
     world.add(box({8.0F, 0.1F, 3.0F}), Eigen::Isometry3d(Eigen::Translation3d(0.0, 3.6, 1.5)));
     for (const Eigen::Isometry3d& T_map_person : people) {
       world.add(box({0.45F, 0.3F, 1.75F}), T_map_person * Eigen::Translation3d(0.0, 0.0, 0.875));
+    }
+    for (const Eigen::Isometry3d& T_map_box : boxes) {
+      world.add(box({0.12F, 0.12F, 0.25F}), T_map_box * Eigen::Translation3d(0.0, 0.0, 0.125));
     }
     world.commit();
     const camera::PinholeCamera camera = test::kinectCamera();
@@ -242,6 +246,49 @@ TEST(LandmarkRefiner, APersonBeforeThemHidesAndDoesNotContradict) {
     const Error error = between(result.T_map_camera, room.T_map_camera);
     EXPECT_LT(error.metres, 0.015) << x;
     EXPECT_LT(error.degrees, 0.4) << x;
+  }
+}
+
+/// Books, boxes and chairs hide what is behind them; they are no sign that it has been moved.
+TEST(LandmarkRefiner, ClutterBeforeThemDoesNotContradict) {
+  Room room;
+  LandmarkScene scene = room.believed();
+  for (int i = 0; i < 12; ++i) {
+    const double along_m = -1.3 + 0.2 * i;
+    room.boxes.push_back(Eigen::Translation3d(0.0, 0.0, 0.2 + 0.15 * (i % 4)) * onFloor(along_m, 2.6 - 0.02 * (i % 3), 10.0 * i));
+  }
+  room.sensor = camera::DepthSensorKind::kKinect1;
+  const LandmarkRefinement result = refineByLandmarks(scene, room.scan(), priorOff(room.T_map_camera, 0.04, 0.03, 2.0), {});
+  ASSERT_EQ(result.status, RefinementStatus::kRefined);
+  for (const LandmarkContribution& piece : result.landmarks) {
+    EXPECT_NE(piece.verdict, LandmarkVerdict::kMoved) << piece.id << " contradiction " << piece.contradiction;
+  }
+  const Error error = between(result.T_map_camera, room.T_map_camera);
+  EXPECT_LT(error.metres, 0.015);
+  EXPECT_LT(error.degrees, 0.4);
+}
+
+/// A row of equal cupboards, from a prior that is wider than they are: the end of the row tells which is which.
+TEST(LandmarkRefiner, ARowOfEqualFrontsIsNotTakenForItsNeighbour) {
+  Room room;
+  room.pieces.clear();
+  for (int i = 0; i < 4; ++i) {
+    room.pieces.push_back({"cabinet-" + std::to_string(i), {"cabinet"}, onFloor(-1.2 + 0.6 * i, 3.0, -90.0)});
+  }
+  room.sensor = camera::DepthSensorKind::kKinect1;
+  LandmarkScene scene = room.believed();
+  const Scan scan = room.scan();
+  for (const double x : {-0.3, 0.2, 0.3}) {
+    for (const double yaw : {-8.0, 8.0}) {
+      CameraPrior prior = priorOff(room.T_map_camera, x, 0.05, yaw);
+      prior.sigma_m = 0.2;
+      prior.sigma_rad = 8.0 * kDegree;
+      const LandmarkRefinement result = refineByLandmarks(scene, scan, prior, {});
+      ASSERT_EQ(result.status, RefinementStatus::kRefined) << x << " " << yaw;
+      const Error error = between(result.T_map_camera, room.T_map_camera);
+      EXPECT_LT(error.metres, 0.02) << x << " " << yaw;
+      EXPECT_LT(error.degrees, 0.4) << x << " " << yaw;
+    }
   }
 }
 

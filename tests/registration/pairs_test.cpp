@@ -72,7 +72,10 @@ TEST_P(PairsTest, SurfacesThatFaceAnotherWayAreNoPair) {
   for (ScanPoint& point : scan.points) {
     point.normal_camera = Eigen::Vector3f(0.8F, 0.0F, -0.6F);
   }
-  EXPECT_TRUE(pair(wall, scan).pairs.empty());
+  const Pairing found = pair(wall, scan);
+  EXPECT_TRUE(found.pairs.empty());
+  EXPECT_EQ(found.counts.turned, found.counts.model);
+  EXPECT_EQ(found.counts.seen_through, 0);
 }
 
 TEST_P(PairsTest, AModelOutOfViewHasNoPairs) {
