@@ -80,7 +80,7 @@ class Workshop {
     const fs::path file = job_.home / "home.xml";
     if (job_.has_landmarks && (fs::exists(file) || !job_.object.empty())) {
       const semantic::Home home = semantic::loadHome(job_.home);
-      auto furniture = std::make_unique<registration::LandmarkScene>(tracking::makeLandmarks(home, job_.home));
+      auto furniture = std::make_unique<registration::LandmarkScene>(tracking::makeLandmarks(home, job_.home, config_.furniture));
       if (!job_.object.empty()) {
         only_ = tracking::getLandmark(*furniture, home, job_.object);
       }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/base/error.h"
@@ -19,6 +21,7 @@ namespace {
 constexpr double kWallHeight_m = 2.5;
 constexpr double kBehind_m = 0.05;  ///< outwards of the outline: what hangs on the wall stays before it, the next room's behind it
 constexpr double kThickness_m = 0.01;
+constexpr double kAtWall_m = 0.5;  ///< from a wall to the middle of a piece that stands at it
 
 /// Twice the area, positive if the corners go round to the left.
 double signedArea(const std::vector<Eigen::Vector2d>& outline) {
@@ -31,33 +34,90 @@ double signedArea(const std::vector<Eigen::Vector2d>& outline) {
   return area;
 }
 
-/// Nothing is seen through a wall. (Nor through its open doors, as far as this goes.)
-model::TriangleMesh wallsOf(const std::vector<Eigen::Vector2d>& outline_map) {
-  model::TriangleMesh walls;
+/// One wall of an outline, `behind_m` outwards of it.
+struct Wall {
+  model::TriangleMesh mesh_wall;
+  Eigen::Isometry3d T_map_wall;
+};
+
+std::vector<Wall> wallsOf(const std::vector<Eigen::Vector2d>& outline_map, double behind_m) {
+  std::vector<Wall> walls;
   const double side = signedArea(outline_map) > 0.0 ? 1.0 : -1.0;
   for (std::size_t i = 0; i < outline_map.size(); ++i) {
     const Eigen::Vector2d& from = outline_map[i];
     const Eigen::Vector2d along = outline_map[(i + 1) % outline_map.size()] - from;
     const Eigen::Vector2d outwards = side * Eigen::Vector2d(along.y(), -along.x()).normalized();
-    const Eigen::Vector2d middle = from + 0.5 * along + kBehind_m * outwards;
+    const Eigen::Vector2d middle = from + 0.5 * along + (behind_m + 0.5 * kThickness_m) * outwards;
     const Eigen::Isometry3d T_map_wall = Eigen::Translation3d(middle.x(), middle.y(), 0.5 * kWallHeight_m) *
                                          Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ());
-    append(walls, model::makeBox(Eigen::Vector3d(along.norm() + 2.0 * kBehind_m, kThickness_m, kWallHeight_m).cast<float>()), T_map_wall);
+    walls.push_back(
+        {model::makeBox(Eigen::Vector3d(along.norm() + 2.0 * behind_m, kThickness_m, kWallHeight_m).cast<float>()), T_map_wall});
   }
   return walls;
 }
 
+/// Nothing is seen through a wall. (Nor through its open doors, as far as this goes.)
+void addOccluders(const semantic::Room& room, registration::LandmarkScene& landmarks) {
+  model::TriangleMesh walls;
+  for (const Wall& wall : wallsOf(room.outline_map, kBehind_m)) {
+    append(walls, wall.mesh_wall, wall.T_map_wall);
+  }
+  landmarks.addOccluder(walls);
+}
+
+double distance_m(const Eigen::Vector2d& point, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const Eigen::Vector2d along = to - from;
+  const double share = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (point - from - share * along).norm();
+}
+
+/// Where fixed furniture stands at a wall, the wall was measured with it.
+bool hasFurniture(const semantic::Room& room, std::size_t wall) {
+  const Eigen::Vector2d& from = room.outline_map[wall];
+  const Eigen::Vector2d& to = room.outline_map[(wall + 1) % room.outline_map.size()];
+  return std::any_of(room.objects.begin(), room.objects.end(), [&](const semantic::LargeObject& object) {
+    return object.movability == semantic::Movability::kFixed && distance_m(object.T_map_object.position_m.head<2>(), from, to) < kAtWall_m;
+  });
+}
+
+bool isLeftOut(const std::string& id, const LandmarkChoice& choice) {
+  return std::find(choice.without.begin(), choice.without.end(), id) != choice.without.end();
+}
+
+void addWalls(const semantic::Room& room, const LandmarkChoice& choice, registration::LandmarkScene& landmarks) {
+  const std::vector<Wall> walls = wallsOf(room.outline_map, 0.0);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    model::ArticulatedModel model;
+    model.name = room.id.value + "/wall-" + std::to_string(i + 1);  // no piece can be called so
+    if (isLeftOut(model.name, choice) || !hasFurniture(room, i)) {
+      continue;
+    }
+    const Wall& wall = walls[i];
+    model.parts.push_back({"wall", std::make_shared<const model::TriangleMesh>(wall.mesh_wall)});
+    landmarks.add(model.name, model, wall.T_map_wall, {});
+  }
+}
+
+bool isChosen(const semantic::LargeObject& object, const LandmarkChoice& choice) {
+  return !isLeftOut(object.id.value, choice) && (object.movability == semantic::Movability::kFixed ||
+                                                 (choice.has_shiftable && object.movability == semantic::Movability::kShiftable));
+}
+
 }  // namespace
 
-registration::LandmarkScene makeLandmarks(const semantic::Home& home, const std::filesystem::path& home_folder) {
+registration::LandmarkScene makeLandmarks(const semantic::Home& home, const std::filesystem::path& home_folder,
+                                          const LandmarkChoice& choice) {
   registration::LandmarkScene landmarks;
   semantic::ModelMaker maker(home_folder);
   for (const semantic::Room& room : home.rooms) {
     if (!room.outline_map.empty()) {
-      landmarks.addOccluder(wallsOf(room.outline_map));
+      addOccluders(room, landmarks);
+      if (choice.has_walls) {
+        addWalls(room, choice, landmarks);
+      }
     }
     for (const semantic::LargeObject& object : room.objects) {
-      if (object.movability == semantic::Movability::kFixed) {
+      if (isChosen(object, choice)) {
         landmarks.add(object.id.value, maker.make(object), object.T_map_object.toIsometry(), semantic::jointValues(object));
       }
     }

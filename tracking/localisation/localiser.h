@@ -18,6 +18,7 @@
 #include "mapping/relocalise/map_tracker.h"
 #include "registration/landmark/landmark_refiner.h"
 #include "registration/scan.h"
+#include "tracking/localisation/home_landmarks.h"
 #include "tracking/localisation/pose_prior.h"
 
 namespace oikos::tracking {
@@ -26,6 +27,7 @@ struct LocaliseConfig {
   mapping::RelocaliseConfig map;
   registration::ScanConfig scan;
   registration::LandmarkConfig landmarks;
+  LandmarkChoice furniture;
   double prior_sigma_m = 0.05;       ///< of a given prior's x and y each
   double prior_sigma_deg = 3.0;      ///< and of its yaw
   double map_prior_sigma_m = 0.02;   ///< how well map and furniture agree about the place,
@@ -36,6 +38,7 @@ struct LocaliseConfig {
     visitor("map", map);
     visitor("scan", scan);
     visitor("landmarks", landmarks);
+    visitor("furniture", furniture);
     visitor("prior_sigma_m", prior_sigma_m);
     visitor("prior_sigma_deg", prior_sigma_deg);
     visitor("map_prior_sigma_m", map_prior_sigma_m);

@@ -53,6 +53,43 @@ TEST(HomeLandmarks, OnlyFixedFurniture) {
   }
 }
 
+TEST(HomeLandmarks, WhatIsShiftableOnDemand) {
+  const semantic::Home home = demoHome();
+  const registration::LandmarkScene landmarks = makeLandmarks(home, kDemo, {.has_shiftable = true});
+  for (const semantic::Room& room : home.rooms) {
+    for (const semantic::LargeObject& object : room.objects) {
+      const bool is_landmark = std::count(landmarks.ids().begin(), landmarks.ids().end(), object.id.value) == 1;
+      EXPECT_EQ(is_landmark, object.movability != semantic::Movability::kMovable) << object.id.value;
+    }
+  }
+}
+
+/// A square room of 4 m with a cupboard at the wall that runs along y = 0, and one that stands free.
+TEST(HomeLandmarks, WallsWithFurnitureOnDemand) {
+  semantic::Home home;
+  semantic::Room room;
+  room.id = semantic::RoomId("den");
+  room.outline_map = {{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}, {0.0, 4.0}};
+  for (const auto& [id, y_m] : {std::pair{"at-the-wall", 0.3}, {"free", 2.0}}) {
+    semantic::LargeObject object;
+    object.id = semantic::ObjectId(id);
+    object.movability = semantic::Movability::kFixed;
+    object.T_map_object.position_m = {2.0, y_m, 0.0};
+    object.shape = semantic::Shape{"cabinet", {}};
+    room.objects.emplace_back(object);
+  }
+  home.rooms.push_back(room);
+  EXPECT_EQ(makeLandmarks(home, kDemo).ids(), (std::vector<std::string>{"at-the-wall", "free"}));
+  const registration::LandmarkScene landmarks = makeLandmarks(home, kDemo, {.has_walls = true});
+  EXPECT_EQ(landmarks.ids(), (std::vector<std::string>{"den/wall-1", "at-the-wall", "free"}));
+  const LandmarkChoice fewer{.has_walls = true, .without = {"den/wall-1", "free"}};
+  EXPECT_EQ(makeLandmarks(home, kDemo, fewer).ids(), (std::vector<std::string>{"at-the-wall"}));
+  const Eigen::Isometry3d T_map_before_wall = test::lookAt({0.7, 2.0, 1.2}, {0.7, 0.0, 1.2});
+  EXPECT_GT(pixelsOf(landmarks, "den/wall-1", T_map_before_wall), 5000);
+  const Eigen::Isometry3d T_map_away = test::lookAt({2.0, 3.0, 1.2}, {2.0, 4.0, 1.2});
+  EXPECT_EQ(pixelsOf(landmarks, "den/wall-1", T_map_away), 0);
+}
+
 TEST(HomeLandmarks, DoorsMoveAndCarcassesDoNot) {
   const registration::LandmarkScene landmarks = makeLandmarks(demoHome(), kDemo);
   int bases = 0;
