@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A real camera put right by real furniture: frames 0-299 of `kitchen` are mapped, homes/kitchen-real stands in that map, and each fifth of
 // frames 300-599 is disturbed by 5 to 20 cm and 2 to 10 degrees and refined by the furniture alone; once more with each piece left out.
-//   real_kitchen_bench [--pictures FOLDER] [--set KEY=VALUE]…
+//   real_kitchen_bench [--pictures FOLDER] [--maps FOLDER] [--verbose] [--set KEY=VALUE]…
 // Errors are against groundtruth_sfm.txt, moved into the map by the mapped frames, and against the map's own path of all 600 frames.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -30,6 +30,7 @@
 #include "semantic/xml/home_reader.h"
 #include "tests/support/temporary_folder.h"
 #include "tracking/localisation/home_landmarks.h"
+#include "tracking/localisation/localiser.h"
 
 namespace {
 
@@ -43,6 +44,8 @@ constexpr int kStride = 5;
 
 struct Options {
   fs::path pictures;
+  fs::path maps;  ///< empty: mapped into a temporary folder
+  bool is_verbose = false;
   std::vector<std::string> settings;
   bool leaves_out = true;
 };
@@ -121,13 +124,43 @@ void drawOverlay(const registration::LandmarkScene& landmarks, const camera::Pin
   }
 }
 
+/// A line a frame: how far off along the longer row of cupboards and across it, and what each piece was taken for.
+void printFrame(const Asked& a, const registration::LandmarkRefinement& refined) {
+  const Eigen::Vector3d off_map = refined.T_map_camera.translation() - a.T_map_camera_true.translation();
+  const Eigen::Vector3d before_map = a.T_map_camera_disturbed.translation() - a.T_map_camera_true.translation();
+  const Eigen::Vector3d along(std::cos(72.36 * kDegree), std::sin(72.36 * kDegree), 0.0);
+  const Eigen::Vector3d across(-along.y(), along.x(), 0.0);
+  std::printf(
+      "%d %s: before %.1f along %.1f across %.1f deg, after %.1f along %.1f across %.2f deg, overlap %.2f, sigma %.1f along, rounds %d;",
+      a.frame, std::string(base::toString(refined.status)).c_str(), 100.0 * before_map.dot(along), 100.0 * before_map.dot(across),
+      degreesBetween(a.T_map_camera_disturbed, a.T_map_camera_true), 100.0 * off_map.dot(along), 100.0 * off_map.dot(across),
+      degreesBetween(refined.T_map_camera, a.T_map_camera_true), refined.overlap,
+      100.0 * std::sqrt(along.dot(refined.T_map_camera.linear() * refined.covariance.topLeftCorner<3, 3>() *
+                                  refined.T_map_camera.linear().transpose() * along)),
+      refined.rounds);
+  for (const std::string& name : refined.unobserved) {
+    std::printf(" unobserved %s", name.c_str());
+  }
+  for (const registration::LandmarkContribution& piece : refined.landmarks) {
+    std::printf(" %s %s %d/%d %.2f", piece.id.c_str(), std::string(base::toString(piece.verdict)).c_str(), piece.agreeing, piece.pixels,
+                piece.contradiction);
+    for (const std::string& part : piece.dropped_parts) {
+      std::printf(" -%s", part.c_str());
+    }
+  }
+  std::printf("\n");
+}
+
 Row refineAll(registration::LandmarkScene& landmarks, const std::vector<Asked>& asked, const registration::LandmarkConfig& config,
-              const camera::PinholeCamera& camera, const fs::path& pictures) {
+              const camera::PinholeCamera& camera, const fs::path& pictures, bool is_verbose) {
   Row row;
   for (const Asked& a : asked) {
     const registration::CameraPrior prior{a.T_map_camera_disturbed, Eigen::Vector3d::Zero(), 0.12, 6.0 * kDegree};
     const registration::LandmarkRefinement refined = registration::refineByLandmarks(landmarks, a.scan, prior, config);
     ++row.statuses[std::string(base::toString(refined.status))];
+    if (is_verbose) {
+      printFrame(a, refined);
+    }
     row.before_m.push_back((a.T_map_camera_disturbed.translation() - a.T_map_camera_true.translation()).norm());
     row.before_deg.push_back(degreesBetween(a.T_map_camera_disturbed, a.T_map_camera_true));
     if (refined.status == registration::RefinementStatus::kRefined) {
@@ -160,40 +193,52 @@ void print(const std::string& name, const Row& row) {
   std::printf(" |\n");
 }
 
-registration::LandmarkScene landmarksWithout(semantic::Home home, const fs::path& folder, const std::string& left_out) {
-  for (semantic::Room& room : home.rooms) {
-    std::erase_if(room.objects, [&](const auto& object) { return object->id == semantic::ObjectId(left_out); });
-  }
-  return tracking::makeLandmarks(home, folder);
+registration::LandmarkScene landmarksWithout(const semantic::Home& home, const fs::path& folder, tracking::LandmarkChoice choice,
+                                             const std::string& left_out) {
+  choice.without.push_back(left_out);
+  return tracking::makeLandmarks(home, folder, choice);
+}
+
+/// The frames with the camera as it was measured for homes/kitchen-real.
+void linkWithCamera(const fs::path& data, int end, const fs::path& folder) {
+  linkFrames(data, 0, end, folder);
+  fs::remove(folder / "camera.toml");
+  fs::copy_file(fs::path(OIKOS_KITCHEN_HOME) / "camera.toml", folder / "camera.toml");
 }
 
 void run(const Options& options, const fs::path& data) {
   const test::TemporaryFolder scratch;
   const MapCommand command{OIKOS_BUILT_BINARY, 0, {}};
-  linkFrames(data, 0, kMapped, scratch.path() / "mapped");
-  (void)mapRecording(command, scratch.path() / "mapped", scratch.path() / "home");
-  (void)mapRecording(command, data, scratch.path() / "all");
-  const recording::Trajectory mapped = recording::readTrajectory(scratch.path() / "home/map/trajectory.txt");
+  const fs::path maps = options.maps.empty() ? scratch.path() : options.maps;
+  if (!fs::exists(maps / "all/map/trajectory.txt")) {
+    linkWithCamera(data, kMapped, maps / "mapped");
+    linkWithCamera(data, kAll, maps / "frames");
+    (void)mapRecording(command, maps / "mapped", maps / "home");
+    (void)mapRecording(command, maps / "frames", maps / "all");
+  }
+  const recording::Trajectory mapped = recording::readTrajectory(maps / "home/map/trajectory.txt");
   const recording::Trajectory truth = truthInMap(mapped, recording::readTrajectory(data / "groundtruth_sfm.txt"));
-  const recording::Trajectory path = truthInMap(mapped, recording::readTrajectory(scratch.path() / "all/map/trajectory.txt"));
-  const auto recording = recording::openRecording(data);
+  const recording::Trajectory path = truthInMap(mapped, recording::readTrajectory(maps / "all/map/trajectory.txt"));
+  const auto recording = recording::openRecording(maps / "frames");
   const std::vector<Asked> asked = readAsked(*recording, truth, path);
 
-  registration::LandmarkConfig config;
+  tracking::LocaliseConfig config;
+  config.furniture = {.has_shiftable = true, .has_walls = true};  // their places were measured in the map of an hour before,
+  config.landmarks.align.surface_sigma_m = 0.015;                 // which has them to a centimetre or two
+  config.landmarks.check.surface_sigma_m = 0.02;
   for (const std::string& setting : options.settings) {
-    const auto equals = setting.find('=');
-    base::assignFields(base::listFields(config), {{}, {base::Setting{setting.substr(0, equals), setting.substr(equals + 1), "--set"}}});
+    base::assignFields(base::listFields(config), {{}, {base::parseSetting(setting)}});
   }
   const fs::path folder = OIKOS_KITCHEN_HOME;
   const semantic::Home home = semantic::readHome(folder / "home.xml").home;
   std::printf(
       "| left out | refined | before: mean cm, deg | after: mean cm, deg | 95 %% cm, deg | to the map's own path: mean cm, deg | "
       "|\n|---|---|---|---|---|---|---|\n");
-  registration::LandmarkScene all = tracking::makeLandmarks(home, folder);
-  print("nothing", refineAll(all, asked, config, recording->camera(), options.pictures));
+  registration::LandmarkScene all = tracking::makeLandmarks(home, folder, config.furniture);
+  print("nothing", refineAll(all, asked, config.landmarks, recording->camera(), options.pictures, options.is_verbose));
   for (const std::string& id : options.leaves_out ? all.ids() : std::vector<std::string>()) {
-    registration::LandmarkScene fewer = landmarksWithout(home, folder, id);
-    print("`" + id + "`", refineAll(fewer, asked, config, recording->camera(), {}));
+    registration::LandmarkScene fewer = landmarksWithout(home, folder, config.furniture, id);
+    print("`" + id + "`", refineAll(fewer, asked, config.landmarks, recording->camera(), {}, false));
   }
 }
 
@@ -203,6 +248,8 @@ int main(int argc, char** argv) {
   CLI::App app{"A real camera refined by the furniture of homes/kitchen-real"};
   Options options;
   app.add_option("--pictures", options.pictures, "folder for the furniture's outlines over each frame, before and after");
+  app.add_option("--maps", options.maps, "keep the maps there, and take them from there");
+  app.add_flag("--verbose", options.is_verbose, "a line a frame");
   app.add_option("--set", options.settings, "KEY=VALUE of the landmarks' configuration; may be repeated")->allow_extra_args(false);
   app.add_flag("!--all-furniture-only", options.leaves_out, "no rows with a piece left out");
   CLI11_PARSE(app, argc, argv);

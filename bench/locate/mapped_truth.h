@@ -7,7 +7,8 @@
 
 namespace oikos::bench {
 
-/// The reference poses in the map's frame: moved by the rigid motion that aligns the frames that were mapped; prints how well it does.
+/// The reference poses in the map's frame: moved by the rigid motion that aligns the frames that were mapped, places and orientations;
+/// prints how well it does.
 /// Throws std::runtime_error if they cannot be aligned.
 [[nodiscard]] recording::Trajectory truthInMap(const recording::Trajectory& mapped, const recording::Trajectory& truth);
 
