@@ -107,6 +107,10 @@ void MapExtension::revise(FrontEndResult& drive, BackEndResult& optimised, const
   }
   const std::vector<DriveView> views = spreadOut(placedFrames(drive, optimised), tools.revision);
   revision_ = mapping::revise(earlier, views, tools.input, tools.occupancy, tools.revision);
+  if (tools.explain) {
+    explanation_ = tools.explain(revision_.changes.changes, revision_.scans);
+  }
+  revision_.scans.clear();
   std::map<int, int> node_of_frame;
   for (std::size_t n = 0; n < drive.graph.nodes.size(); ++n) {
     node_of_frame[drive.graph.nodes[n].frame] = static_cast<int>(n);

@@ -32,6 +32,7 @@ class MapExtension {
     const OccupancyConfig& occupancy;
     const FrontEndConfig& front_end;
     const RevisionConfig& revision;
+    const ExplainChanges& explain;  ///< may be empty
   };
   /// Compares the drive with the earlier keyframes, and makes keyframes of the frames that show changes. Frames of sub-maps that
   /// no loop joined to it are left out.
@@ -39,6 +40,7 @@ class MapExtension {
 
   [[nodiscard]] const GoneSpace& gone() const { return revision_.gone; }
   [[nodiscard]] const std::vector<Change>& changes() const { return revision_.changes.changes; }
+  [[nodiscard]] const ChangeExplanation& explanation() const { return explanation_; }
   [[nodiscard]] int witnesses() const { return static_cast<int>(revision_.witnesses.size()); }
 
   /// Of the earlier frames, moved along with their keyframes.
@@ -51,6 +53,7 @@ class MapExtension {
 
   const EarlierMap& earlier_;
   Revision revision_;
+  ChangeExplanation explanation_;
 };
 
 }  // namespace oikos::mapping

@@ -172,7 +172,7 @@ class Mapper {
     floor_.status = earlier_->isFloorFound() ? FloorStatus::kFound : FloorStatus::kNoFloor;
     floor_.camera_height_m = optimised_.T_world_frame.front().translation().z();
     extension_.emplace(*earlier_);
-    extension_->revise(drive_, optimised_, {fusionInput(), config_.volume.occupancy, config_.front_end, config_.revision});
+    extension_->revise(drive_, optimised_, {fusionInput(), config_.volume.occupancy, config_.front_end, config_.revision, run_.explain});
     std::vector<Eigen::Isometry3d> T_map_keyframe;
     for (int node = 0; node < drive_.graph.settled; ++node) {
       T_map_keyframe.push_back(drive_.graph.nodes[static_cast<std::size_t>(node)].T_world_camera);
@@ -231,7 +231,11 @@ class Mapper {
         {recording_, statistics_, drive_, optimised_, floor_, fused_, carried_, config_.volume, odometry_without_mount_, placement_});
     report.drives = drives();
     if (extension_) {
-      report.extension = {earlier, drive_.graph.settled, extension_->witnesses(), extension_->largestMove_m(drive_.graph),
+      report.extension = {earlier,
+                          drive_.graph.settled,
+                          extension_->witnesses(),
+                          extension_->largestMove_m(drive_.graph),
+                          extension_->explanation(),
                           extension_->changes()};
     }
     base::writeFileAtomically(folder_ / "report.json", reportJson(report));
@@ -279,6 +283,7 @@ class Mapper {
     result.earlier_keyframes = drive_.graph.settled;
     if (extension_) {
       result.changes = extension_->changes();
+      result.explanation = extension_->explanation();
     }
     for (std::size_t e = 0; e < drive_.graph.edges.size(); ++e) {
       result.loops += drive_.graph.edges[e].kind == EdgeKind::kLoop && optimised_.believed[e] != 0 ? 1 : 0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "mapping/graph/back_end.h"
 #include "mapping/graph/front_end.h"
 #include "mapping/graph/pairwise_front_end.h"
+#include "mapping/report/report.h"
 #include "mapping/volume/map_builder.h"
 
 namespace oikos::mapping {
@@ -55,6 +57,9 @@ struct MapConfig {
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 
+/// What someone who knows the furniture makes of changes, by the drive's located views; asked once, before the report is written.
+using ExplainChanges = std::function<ChangeExplanation(const std::vector<Change>& changes, const std::vector<LocatedScan>& scans)>;
+
 /// What a run gets beside its configuration.
 struct MapRun {
   int threads = 1;
@@ -63,6 +68,7 @@ struct MapRun {
       std::nullopt;                             ///< the camera's mount; nothing: that of the recording's calibration, if it has one
   std::optional<PlanTask> plan = std::nullopt;  ///< the map is laid onto it; without one its frame is the base at the first frame
   std::filesystem::path extended = {};          ///< the `map` folder that the drive goes on with; empty: a new map. It has a frame: no plan
+  ExplainChanges explain = {};                  ///< nothing: changes stay without names
   base::ProgressSink progress = {};
 };
 
@@ -78,8 +84,9 @@ struct [[nodiscard]] MapResult {
   int submaps = 0;  ///< parts of the drive that no loop has joined; 1 is what one wants
   bool floor_found = false;
   std::optional<PlanPlacement> placement = std::nullopt;  ///< if there was a plan
-  bool is_placed = true;             ///< false: the drive has no place in the map that it was to extend, and nothing was written
-  std::vector<Change> changes = {};  ///< between the map that was extended and the drive
+  bool is_placed = true;               ///< false: the drive has no place in the map that it was to extend, and nothing was written
+  std::vector<Change> changes = {};    ///< between the map that was extended and the drive
+  ChangeExplanation explanation = {};  ///< of them
 };
 
 /// Builds the metric map of a recorded drive, or extends one by another drive (S21): track → close loops → refine → find the floor → lay it

@@ -5,6 +5,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "core/base/config.h"
+#include "core/base/degrees.h"
 #include "core/base/number_text.h"
 #include "core/recording/recording.h"
 #include "mapping/floorplan/plan_file.h"
@@ -101,24 +103,46 @@ std::optional<mapping::PlanTask> planOf(const MapOptions& options) {
                            options.floor_plan.string()};
 }
 
-nlohmann::ordered_json changesJson(const std::vector<mapping::Change>& changes) {
+nlohmann::ordered_json changesJson(const mapping::MapResult& result) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const mapping::Change& change : changes) {
+  for (std::size_t i = 0; i < result.changes.size(); ++i) {
+    const mapping::Change& change = result.changes[i];
     list.push_back({{"kind", base::toString(change.kind)},
                     {"center_map_m", {change.center_map.x(), change.center_map.y(), change.center_map.z()}},
                     {"size_m", {change.size_m.x(), change.size_m.y(), change.size_m.z()}},
-                    {"confidence", change.confidence}});
+                    {"confidence", change.confidence},
+                    {"piece", i < result.explanation.pieces.size() ? result.explanation.pieces[i] : ""}});
   }
   return list;
 }
 
-void printChanges(const std::vector<mapping::Change>& changes) {
+double yaw_deg(const Eigen::Isometry3d& T) {
+  return std::atan2(T.linear()(1, 0), T.linear()(0, 0)) / base::kRadPerDeg;
+}
+
+nlohmann::ordered_json movedJson(const std::vector<mapping::MovedPieceFacts>& pieces) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const mapping::MovedPieceFacts& piece : pieces) {
+    const Eigen::Vector3d p = piece.T_map_after.translation();
+    list.push_back({{"id", piece.id}, {"x_m", p.x()}, {"y_m", p.y()}, {"z_m", p.z()}, {"yaw_deg", yaw_deg(piece.T_map_after)}});
+  }
+  return list;
+}
+
+void printChanges(const mapping::MapResult& result) {
   const auto three = [](const Eigen::Vector3d& v, const char* between) {
     return base::toFixedText(v.x(), 2) + between + base::toFixedText(v.y(), 2) + between + base::toFixedText(v.z(), 2);
   };
-  for (const mapping::Change& change : changes) {
+  for (std::size_t i = 0; i < result.changes.size(); ++i) {
+    const mapping::Change& change = result.changes[i];
+    const std::string piece = i < result.explanation.pieces.size() ? result.explanation.pieces[i] : "";
     std::cout << (change.kind == mapping::ChangeKind::kNew ? "new: " : "gone: ") << three(change.size_m, " x ") << " m at "
-              << three(change.center_map, " ") << '\n';
+              << three(change.center_map, " ") << (piece.empty() ? "" : " (" + piece + ")") << '\n';
+  }
+  for (const mapping::MovedPieceFacts& piece : result.explanation.moved) {
+    const Eigen::Vector3d p = piece.T_map_after.translation();
+    std::cout << piece.id << " moved by " << base::toFixedText((p - piece.T_map_before.translation()).norm(), 2) << " m, to "
+              << three(p, " ") << ", yaw " << base::toFixedText(yaw_deg(piece.T_map_after), 0) << " deg\n";
   }
 }
 
@@ -154,7 +178,8 @@ void printJson(const Summary& summary, bool extended) {
                           {"upright_surface_on_plan_share", figures.on_plan_share}};
   }
   if (extended) {
-    json["changes"] = changesJson(result.changes);
+    json["changes"] = changesJson(result);
+    json["moved_furniture"] = movedJson(result.explanation.moved);
   }
   std::cout << json.dump(2) << '\n';
 }
@@ -167,7 +192,7 @@ void printText(const Summary& summary) {
   if (result.earlier_keyframes > 0) {
     std::cout << "the map had " << result.earlier_keyframes << " keyframes, the drive added " << result.keyframes - result.earlier_keyframes
               << '\n';
-    printChanges(result.changes);
+    printChanges(result);
   }
   if (result.skipped_frames > 0) {
     std::cout << result.skipped_frames << " frames could not be read\n";

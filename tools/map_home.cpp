@@ -9,6 +9,8 @@
 #include "tools/home_stage.h"
 #include "tools/room_clouds.h"
 #include "tools/terminal_progress.h"
+#include "tracking/furniture/changed_pieces.h"
+#include "tracking/furniture/moved_furniture.h"
 
 namespace oikos::tools {
 
@@ -26,6 +28,19 @@ std::optional<semantic::Home> findHome(const std::filesystem::path& home) {
     std::cerr << "oikos: the rooms get no clouds of their own: " << error.what() << '\n';
     return std::nullopt;
   }
+}
+
+/// What of the home's furniture the changes are of, and where what was moved stands now.
+mapping::ChangeExplanation explain(const semantic::Home& home, const std::filesystem::path& folder, int threads,
+                                   const std::vector<mapping::Change>& changes, const std::vector<mapping::LocatedScan>& scans) {
+  mapping::ChangeExplanation explanation;
+  explanation.pieces = tracking::piecesOf(changes, home, folder);
+  tracking::MovedFurnitureConfig config;
+  config.threads = threads;
+  for (const tracking::MovedPiece& piece : tracking::findMovedFurniture(home, folder, scans, changes, config)) {
+    explanation.moved.push_back({piece.id.value, piece.T_map_before, piece.T_map_after, piece.views, piece.spread_m});
+  }
+  return explanation;
 }
 
 }  // namespace
@@ -54,11 +69,18 @@ mapping::MapResult mapIntoHome(const MapJob& job, const Session& session) {
   if (job.extend && !std::filesystem::exists(map)) {
     throw base::Error(base::ErrorCode::kUsage, "no such map to extend: make one first, without --extend", map.string());
   }
+  mapping::ExplainChanges explanation;
+  if (job.extend && known) {
+    explanation = [&](const std::vector<mapping::Change>& changes, const std::vector<mapping::LocatedScan>& scans) {
+      return explain(*known, job.home, session.options.threads, changes, scans);
+    };
+  }
   const mapping::MapRun run{.threads = session.options.threads,
                             .seed = session.options.seed,
                             .T_base_camera = job.T_base_camera,
                             .plan = job.extend ? std::nullopt : planFor(job, known),
                             .extended = job.extend ? map : std::filesystem::path(),
+                            .explain = explanation,
                             .progress = progress.sink()};
   HomeStage stage(job.home, session.interrupts);
   const mapping::MapResult result = mapping::buildMap(job.recording, job.config, run, stage.mapFolder());

@@ -251,6 +251,7 @@ Revision revise(const std::vector<View>& earlier, const std::vector<DriveView>& 
   revision.witnesses = chooseWitnesses(voxels, shown, drive, config);
   std::set<VoxelKey> gone = goneVoxels(revision.changes.changes);
   addFringe(space, viewsOf(scans, shown, change, voxel_m), change, gone);
+  revision.scans = scans;
   revision.gone = GoneSpace(voxel_m, {gone.begin(), gone.end()});
   return revision;
 }

@@ -19,8 +19,9 @@ struct DriveView {
 /// What a drive says about the map that it extends (S21, S222).
 struct Revision {
   ChangeResult changes;
-  GoneSpace gone;              ///< all that has gone, with what is beside it and less clear
-  std::vector<int> witnesses;  ///< frames that show changes and become keyframes for it: the map is what its keyframes show
+  GoneSpace gone;                  ///< all that has gone, with what is beside it and less clear
+  std::vector<LocatedScan> scans;  ///< of the drive's views, halved in size
+  std::vector<int> witnesses;      ///< frames that show changes and become keyframes for it: the map is what its keyframes show
 };
 
 /// Frames about a step apart, and all that are kept already.

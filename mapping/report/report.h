@@ -79,12 +79,28 @@ struct DriveFacts {
   std::int64_t added_to_stamps_s = 0;  ///< to each stamp of its recording, where its clock does not go on from the drive before
 };
 
+/// A piece of furniture that was found elsewhere than the home has it.
+struct MovedPieceFacts {
+  std::string id;
+  Eigen::Isometry3d T_map_before = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_map_after = Eigen::Isometry3d::Identity();
+  int views = 0;          ///< that agree on it
+  double spread_m = 0.0;  ///< of their answers, root mean square
+};
+
+/// What the home's furniture has to do with changes.
+struct ChangeExplanation {
+  std::vector<std::string> pieces;     ///< one a change: the id of the piece that it is of; empty: of none that is known
+  std::vector<MovedPieceFacts> moved;  ///< in the home's order
+};
+
 /// What was there before a drive that extends a map, and what became of it.
 struct ExtensionFacts {
   recording::Trajectory trajectory;  ///< T_map_camera of the earlier drives' frames, final
   int keyframes = 0;                 ///< of the earlier drives
   int witnesses = 0;                 ///< keyframes of this drive that are kept because they show changes
   double largest_move_m = 0.0;       ///< of an earlier keyframe, by the optimisation with this drive
+  ChangeExplanation explanation;     ///< pieces: one a change, or none at all: nobody knew the furniture
   std::vector<Change> changes;       ///< of what stands where, between the earlier drives and this one
 };
 

@@ -196,16 +196,25 @@ std::string changesSection(const std::optional<ExtensionFacts>& extension) {
   }
   std::string html =
       "<div class=\"scroll\"><table>\n<tr><th>kind</th><th class=\"number\">centre x, y, z, m</th>"
-      "<th class=\"number\">size, m</th><th class=\"number\">confidence</th></tr>\n";
+      "<th class=\"number\">size, m</th><th class=\"number\">confidence</th><th>of</th></tr>\n";
   const auto three = [](const Eigen::Vector3d& v) {
     return numberText(v.x(), 2) + ", " + numberText(v.y(), 2) + ", " + numberText(v.z(), 2);
   };
   for (std::size_t i = 0; i < extension->changes.size() && i < kMaxRows; ++i) {
     const Change& change = extension->changes[i];
     html += "<tr>" + element("td", "text", std::string(base::toString(change.kind))) + element("td", "number", three(change.center_map)) +
-            element("td", "number", three(change.size_m)) + element("td", "number", numberText(change.confidence, 2)) + "</tr>\n";
+            element("td", "number", three(change.size_m)) + element("td", "number", numberText(change.confidence, 2)) +
+            element("td", "text", i < extension->explanation.pieces.size() ? extension->explanation.pieces[i] : "") + "</tr>\n";
   }
-  return section("What has changed", html + "</table></div>\n" + moreRows(extension->changes.size()));
+  html += "</table></div>\n" + moreRows(extension->changes.size());
+  for (const MovedPieceFacts& piece : extension->explanation.moved) {
+    const Eigen::Vector3d to = piece.T_map_after.translation();
+    html += element("p", "",
+                    piece.id + " stands " + lengthText((to - piece.T_map_before.translation()).norm()) +
+                        " from where the home has it, at " + numberText(to.x(), 2) + ", " + numberText(to.y(), 2) + ".") +
+            "\n";
+  }
+  return section("What has changed", html);
 }
 
 std::string optimisationSection(const OptimisationFacts& optimisation) {

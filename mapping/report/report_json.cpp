@@ -136,13 +136,33 @@ Json extensionJson(const ExtensionFacts& extension) {
           {"largest_move_m", extension.largest_move_m}};
 }
 
-Json changesJson(const std::vector<Change>& changes) {
+Json movedJson(const std::vector<MovedPieceFacts>& pieces) {
+  const auto pose = [](const Eigen::Isometry3d& T) {
+    const double yaw_rad = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
+    return Json{
+        {"x_m", T.translation().x()}, {"y_m", T.translation().y()}, {"z_m", T.translation().z()}, {"yaw_deg", yaw_rad / base::kRadPerDeg}};
+  };
   Json list = Json::array();
-  for (const Change& change : changes) {
+  for (const MovedPieceFacts& piece : pieces) {
+    list.push_back({{"id", piece.id},
+                    {"before_map", pose(piece.T_map_before)},
+                    {"after_map", pose(piece.T_map_after)},
+                    {"views", piece.views},
+                    {"spread_m", piece.spread_m}});
+  }
+  return list;
+}
+
+Json changesJson(const ExtensionFacts& extension) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < extension.changes.size(); ++i) {
+    const Change& change = extension.changes[i];
+    const std::string piece = i < extension.explanation.pieces.size() ? extension.explanation.pieces[i] : "";
     Json entry = {
         {"kind", base::toString(change.kind)}, {"center_map_m", vectorJson(change.center_map)}, {"size_m", vectorJson(change.size_m)}};
     entry["support_height_m"] = change.support_height_m ? Json(*change.support_height_m) : Json(nullptr);
     entry["confidence"] = change.confidence;
+    entry["piece"] = piece.empty() ? Json(nullptr) : Json(piece);
     list.push_back(std::move(entry));
   }
   return list;
@@ -192,7 +212,8 @@ std::string reportJson(const MapReport& report) {
   json["drives"] = drivesJson(report.drives);
   if (report.extension) {
     json["extension"] = extensionJson(*report.extension);
-    json["changes"] = changesJson(report.extension->changes);
+    json["changes"] = changesJson(*report.extension);
+    json["moved_furniture"] = movedJson(report.extension->explanation.moved);
   }
   json["map"] = volumeJson(report.volume, figures);
   json["frames"] = framesJson(report);
