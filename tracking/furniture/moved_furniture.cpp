@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -168,29 +169,42 @@ bool isBelieved(const std::vector<Answer>& answers, const MovedFurnitureConfig& 
   return answers.size() >= 2 || (answers.size() == 1 && answers.front().fit >= config.lone_fit);
 }
 
-/// What most views agree on, of the start from which most do.
+/// What most of the views agree on that have a place near the start in sight.
+std::vector<Answer> locateFrom(const Piece& piece, const Eigen::Isometry3d& T_map_start, const std::vector<LocatedScan>& scans,
+                               const MovedFurnitureConfig& config) {
+  const std::vector<const LocatedScan*> views = viewsOf(T_map_start * piece.box_model.center(), scans, config);
+  std::vector<std::optional<Answer>> asked(views.size());
+  base::parallelFor(static_cast<int>(views.size()), config.threads, [&](int i) {
+    const auto v = static_cast<std::size_t>(i);
+    asked[v] = ask(piece, T_map_start, *views[v], config);
+  });
+  std::vector<Answer> answers;
+  for (const std::optional<Answer>& answer : asked) {
+    if (answer) {
+      answers.push_back(*answer);
+    }
+  }
+  return largestAgreement(answers, config);
+}
+
+/// How much the views explain altogether.
+double weightOf(const std::vector<Answer>& answers) {
+  return std::accumulate(answers.begin(), answers.end(), 0.0, [](double sum, const Answer& answer) { return sum + answer.fit; });
+}
+
+/// Near where it is believed if it is there, else where the views explain most of it: turned by a quarter a table half fits, too.
 std::vector<Answer> locate(const Piece& piece, const std::vector<LocatedScan>& scans, const std::vector<Change>& changes,
                            const MovedFurnitureConfig& config) {
-  std::vector<Answer> best;
-  for (const Eigen::Isometry3d& start : startsOf(piece, changes)) {
-    if (best.size() >= 2) {
-      break;  // found from the start before: what is elsewhere is something else
-    }
-    const std::vector<const LocatedScan*> views = viewsOf(start * piece.box_model.center(), scans, config);
-    std::vector<std::optional<Answer>> asked(views.size());
-    base::parallelFor(static_cast<int>(views.size()), config.threads, [&](int i) {
-      const auto v = static_cast<std::size_t>(i);
-      asked[v] = ask(piece, start, *views[v], config);
-    });
-    std::vector<Answer> answers;
-    for (const std::optional<Answer>& answer : asked) {
-      if (answer) {
-        answers.push_back(*answer);
-      }
-    }
-    std::vector<Answer> agreed = largestAgreement(answers, config);
-    if (agreed.size() > best.size()) {
-      best = std::move(agreed);
+  const std::vector<Eigen::Isometry3d> starts = startsOf(piece, changes);
+  std::vector<Answer> best = locateFrom(piece, starts.front(), scans, config);
+  if (isBelieved(best, config)) {
+    return best;
+  }
+  best.clear();
+  for (std::size_t s = 1; s < starts.size(); ++s) {
+    std::vector<Answer> answers = locateFrom(piece, starts[s], scans, config);
+    if (weightOf(answers) > weightOf(best)) {
+      best = std::move(answers);
     }
   }
   return best;
