@@ -88,6 +88,15 @@ TEST(ReportJson, AnExtendedMapSaysWhatItIsMadeOfAndWhatHasChanged) {
   EXPECT_EQ(json["changes"][0]["center_map_m"], Json({0.5, 0.25, 0.375}));
   EXPECT_TRUE(json["changes"][0]["support_height_m"].is_null());
   EXPECT_EQ(json["changes"][0]["confidence"], 0.875);
+  EXPECT_EQ(json["changes"][0]["piece"], "chair-1");
+  ASSERT_EQ(json["moved_furniture"].size(), 1U);
+  EXPECT_EQ(json["moved_furniture"][0]["id"], "table");
+  EXPECT_EQ(json["moved_furniture"][0]["after_map"]["x_m"], 0.25);
+  EXPECT_NEAR(json["moved_furniture"][0]["after_map"]["yaw_deg"].get<double>(), 90.0, 1e-9);
+  EXPECT_EQ(json["moved_furniture"][0]["views"], 3);
+  MapReport unnamed = test::extendedReport();
+  unnamed.extension->explanation = {};
+  EXPECT_TRUE(Json::parse(reportJson(unnamed))["changes"][0]["piece"].is_null());
   EXPECT_FALSE(Json::parse(reportJson(test::sampleReport())).contains("changes"));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/mapping/report/sample_report.h"
 
+#include <numbers>
 #include <opencv2/core.hpp>
 
 namespace oikos::mapping::test {
@@ -107,6 +108,10 @@ MapReport extendedReport() {
   change.size_m = Eigen::Vector3d(0.5, 0.5, 0.75);
   change.confidence = 0.875;
   extension.changes = {change};
+  extension.explanation.pieces = {"chair-1"};
+  MovedPieceFacts table{"table", Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity(), 3, 0.0025};
+  table.T_map_after = Eigen::Translation3d(0.25, 0.0, 0.0) * Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ());
+  extension.explanation.moved = {table};
   report.extension = extension;
   report.loops.push_back({10, 2, 55, 0.5, LoopVerdict::kAccepted});
   report.loops.back().is_to_earlier_drive = true;
