@@ -7,10 +7,12 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "core/base/config_rules.h"
 #include "core/render/view.h"
 #include "registration/edge_pairs.h"
+#include "registration/view_box.h"
 
 namespace oikos::registration {
 
@@ -30,16 +32,15 @@ class Aligner {
   Aligner(Motion& motion, const AlignConfig& config) : motion_(motion), config_(config) {}
 
   /// False: nothing to go on with.
-  bool runLevel(const Scan& scan, int iterations, double first_gate_m, double last_gate_m) {
+  bool runLevel(const Scan& scan, int iterations, double first_gate_m, double last_gate_m, int min_pairs) {
     min_observability_ = first_gate_m > last_gate_m ? 1.0 : config_.min_observability;  // far off, a hint is worth following
-    const render::CameraRays rays(scan.camera);
-    edges_.emplace(scan);
     settled_ = false;
+    window_.reset();
     for (int i = 0; i < iterations && !(settled_ && i > gateSteps(first_gate_m, last_gate_m)); ++i) {
       const double shrink = std::min(1.0, static_cast<double>(i) / std::max(1, gateSteps(first_gate_m, last_gate_m)));
       gate_m_ = first_gate_m * std::pow(last_gate_m / first_gate_m, shrink);
-      look(scan, rays);
-      if (static_cast<int>(pairing_.pairs.size()) < std::max(config_.min_inliers / 4, 6)) {
+      look(scan, first_gate_m);
+      if (static_cast<int>(pairing_.pairs.size()) < std::max(min_pairs, 6)) {
         return false;
       }
       takeStep();
@@ -73,18 +74,30 @@ class Aligner {
     sum();
   }
 
-  void look(const Scan& scan, const render::CameraRays& rays) {
+  /// Only where the model can be seen, and a little beside it, is looked at.
+  void aim(const Scan& scan, double room_m) {
+    const Eigen::Isometry3d T_map_camera = motion_.T_map_camera();
+    const PixelBox least = boxInView(motion_.scene(), T_map_camera, scan.camera, config_.fine_gate_m);
+    if (!window_ || !window_->box.contains(least)) {
+      const PixelBox box = boxInView(motion_.scene(), T_map_camera, scan.camera, room_m);
+      window_.emplace(box, cropped(scan, box));
+    }
+  }
+
+  void look(const Scan& scan, double room_m) {
+    aim(scan, room_m);
+    const Scan& seen = window_->scan;
     render::ViewConfig view_config;
     view_config.with_normals = true;
     view_config.with_parts = true;
     view_config.threads = config_.threads;
     const Eigen::Isometry3d T_map_camera = motion_.T_map_camera();
-    const render::View view = render::renderView(motion_.scene(), rays, {T_map_camera, {}}, view_config);
+    const render::View view = render::renderView(motion_.scene(), window_->rays, {T_map_camera, {}}, view_config);
     const PairRules rules{gate_m_, std::cos(config_.max_normal_deg * kDegree)};
-    pairing_ = config_.association == Association::kProjective ? projectivePairs(view, scan, T_map_camera, rules)
-                                                               : nearestPairs(view, scan, T_map_camera, rules);
+    pairing_ = config_.association == Association::kProjective ? projectivePairs(view, seen, T_map_camera, rules)
+                                                               : nearestPairs(view, seen, T_map_camera, rules);
     if (config_.has_edges) {
-      outline_places_ = appendEdgePairs(view, scan, *edges_, T_map_camera, gate_m_, pairing_.pairs);
+      outline_places_ = appendEdgePairs(view, seen, window_->edges, T_map_camera, gate_m_, pairing_.pairs);
     }
     looked_.pairs = pairing_.pairs;
     looked_.T_map_camera = T_map_camera;
@@ -103,9 +116,13 @@ class Aligner {
   void lookClosely(const Scan& scan) {
     gate_m_ = config_.fine_gate_m;
     min_observability_ = config_.min_observability;
-    edges_.emplace(scan);
-    look(scan, render::CameraRays(scan.camera));
+    window_.reset();
+    look(scan, config_.fine_gate_m);
   }
+
+  /// What the last picture of the whole scan says; the last step was too short to change it.
+  void finish() { followPairs(); }
+  [[nodiscard]] bool isSettled() const { return settled_; }
 
   [[nodiscard]] AlignResult result() const {
     AlignResult result;
@@ -233,7 +250,15 @@ class Aligner {
   const AlignConfig& config_;
   double gate_m_ = 0.0;
   double min_observability_ = 0.0;
-  std::optional<ScanEdges> edges_;  ///< of the scan of this level
+  /// The part of a scan that is looked at.
+  struct Window {
+    Window(const PixelBox& in_scan, Scan part) : box(in_scan), scan(std::move(part)), edges(scan), rays(scan.camera) {}
+    PixelBox box;
+    Scan scan;
+    ScanEdges edges;
+    render::CameraRays rays;
+  };
+  std::optional<Window> window_;
   struct Looked {
     std::vector<Pair> pairs;
     Eigen::Isometry3d T_map_camera;
@@ -253,7 +278,7 @@ class Aligner {
 
 std::vector<std::string> AlignConfig::validate() const {
   base::ConfigRules rules;
-  rules.atLeast("coarse_thinning", coarse_thinning, 1)
+  rules.atLeast("coarse_columns", coarse_columns, 8)
       .atLeast("coarse_iterations", coarse_iterations, 0)
       .atLeast("fine_iterations", fine_iterations, 1)
       .greater("fine_gate_m", fine_gate_m, 0.0)
@@ -274,15 +299,19 @@ AlignResult align(Motion& motion, const Scan& scan, const AlignConfig& config) {
   const Eigen::Vector3d pivot_moving = T_map_before.inverse() * motion.pivot_map();
   const std::vector<double> before = motion.saved();
   Aligner aligner(motion, config);
-  const bool found = config.coarse_iterations == 0 || aligner.runLevel(thinned(scan, config.coarse_thinning), config.coarse_iterations,
-                                                                       config.coarse_gate_m, config.fine_gate_m);
-  if (found) {
-    aligner.runLevel(scan, config.fine_iterations, config.fine_gate_m, config.fine_gate_m);
-  }
+  const int thinning = std::max(1, (scan.camera.width + config.coarse_columns - 1) / config.coarse_columns);
+  const bool found =
+      config.coarse_iterations == 0 || aligner.runLevel(thinned(scan, thinning), config.coarse_iterations, config.coarse_gate_m,
+                                                        config.fine_gate_m, config.min_inliers / (thinning * thinning));
+  const bool fits = found && aligner.runLevel(scan, config.fine_iterations, config.fine_gate_m, config.fine_gate_m, config.min_inliers / 4);
   if (!found) {
     motion.restore(before);
   }
-  aligner.lookClosely(scan);
+  if (fits && aligner.isSettled()) {
+    aligner.finish();
+  } else {
+    aligner.lookClosely(scan);
+  }
   AlignResult result = aligner.result();
   const Eigen::Isometry3d T_map_after = motion.T_map_moving();
   result.moved_m = (T_map_after * pivot_moving - T_map_before * pivot_moving).norm();

@@ -18,7 +18,7 @@ namespace oikos::registration {
 struct AlignConfig {
   Association association = Association::kProjective;
   bool has_edges = true;            ///< outlines count beside surfaces
-  int coarse_thinning = 2;          ///< the coarse steps see one scan point in so many rows and columns
+  int coarse_columns = 80;          ///< the coarse steps see a scan thinned to at most so many columns
   int coarse_iterations = 16;       ///< at most
   int fine_iterations = 20;         ///< at most
   double coarse_gate_m = 0.30;      ///< distance from the model's plane beyond which nothing is paired, at first
@@ -36,7 +36,7 @@ struct AlignConfig {
   void visit(Visitor&& visitor) {
     visitor("association", association);
     visitor("has_edges", has_edges);
-    visitor("coarse_thinning", coarse_thinning);
+    visitor("coarse_columns", coarse_columns);
     visitor("coarse_iterations", coarse_iterations);
     visitor("fine_iterations", fine_iterations);
     visitor("coarse_gate_m", coarse_gate_m);

@@ -89,7 +89,6 @@ class Search {
     constexpr int kThinning = 4;
     AlignConfig quick = config_.align;
     quick.coarse_iterations = config_.screening_iterations;
-    quick.coarse_thinning = 1;
     quick.fine_iterations = 1;
     quick.min_inliers = std::max(6, quick.min_inliers / (kThinning * kThinning));
     const Scan thin = thinned(scan_, kThinning);

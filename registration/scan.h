@@ -47,6 +47,18 @@ struct Scan {
   }
 };
 
+/// Columns from `left` to before `right`, rows from `top` to before `bottom`.
+struct PixelBox {
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+
+  [[nodiscard]] bool contains(const PixelBox& other) const {
+    return left <= other.left && top <= other.top && right >= other.right && bottom >= other.bottom;
+  }
+};
+
 /// The pinhole whose pixel (u, v) is the pixel (u, v) * step of `camera`.
 [[nodiscard]] camera::PinholeCamera thinned(const camera::PinholeCamera& camera, int step_px);
 
@@ -56,5 +68,8 @@ struct Scan {
 
 /// Every `factor`-th point of a scan.
 [[nodiscard]] Scan thinned(const Scan& scan, int factor);
+
+/// The pixels of a box that lies in the scan, as a camera of their own.
+[[nodiscard]] Scan cropped(const Scan& scan, const PixelBox& box);
 
 }  // namespace oikos::registration

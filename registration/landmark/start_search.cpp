@@ -51,7 +51,6 @@ int readingsOf(const Scan& scan) {
 
 AlignConfig quickConfig(AlignConfig config, const StartSearchConfig& search) {
   config.coarse_iterations = search.iterations;
-  config.coarse_thinning = 1;
   config.fine_iterations = 2;
   config.min_inliers = std::max(6, config.min_inliers / (search.thinning * search.thinning));
   return config;

@@ -257,7 +257,7 @@ TEST(AlignStatus, EveryValueHasAName) {
 }
 
 TEST(AlignConfig, Rules) {
-  test::checkConfigRules<AlignConfig>({{"coarse_thinning", "0", "must be >= 1"},
+  test::checkConfigRules<AlignConfig>({{"coarse_columns", "7", "must be >= 8"},
                                        {"coarse_iterations", "-1", "must be >= 0"},
                                        {"fine_iterations", "0", "must be >= 1"},
                                        {"coarse_gate_m", "0.04", "must be >= 0.05"},

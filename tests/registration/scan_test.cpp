@@ -85,6 +85,65 @@ TEST(Scan, ThinningKeepsTheRays) {
   EXPECT_LT((coarse.camera.ray(13, 7) - fine.camera.ray(26, 14)).norm(), 1e-12);
 }
 
+TEST(Scan, ACropIsTheSamePointsOnTheSameRays) {
+  const Scan whole = makeScan(planeDepth(Eigen::Vector3d(0.2, 0.1, 1.0).normalized(), 2.0), test::kinectCamera(), {});
+  const Scan part = cropped(whole, {30, 20, 90, 70});
+  ASSERT_EQ(part.camera.width, 60);
+  ASSERT_EQ(part.camera.height, 50);
+  EXPECT_EQ(part.at(7, 9).point_camera, whole.at(37, 29).point_camera);
+  EXPECT_EQ(part.at(7, 9).normal_camera, whole.at(37, 29).normal_camera);
+  EXPECT_LT((part.camera.ray(7, 9) - whole.camera.ray(37, 29)).norm(), 1e-12);
+  EXPECT_TRUE(cropped(whole, {30, 20, 30, 20}).points.empty());
+  EXPECT_THROW(static_cast<void>(cropped(whole, {0, 0, 161, 120})), base::ContractViolation);
+}
+
+/// The normal of each point is the one that a plain fit to its window gives.
+TEST(Scan, NormalsAreThoseOfAPlainFit) {
+  const camera::PinholeCamera camera = test::kinectCamera();
+  cv::Mat depth_m(camera.height, camera.width, CV_32FC1);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const int noise = (u * 7919 + v * 104729) % 1000;
+      depth_m.at<float>(v, u) = noise < 50 ? kNan : static_cast<float>(1.5 + 0.001 * u + 0.0005 * v + (u > 300 ? 0.6 : 0.0) + 2e-6 * noise);
+    }
+  }
+  const ScanConfig config;
+  const Scan scan = makeScan(depth_m, camera, config);
+  int fitted = 0;
+  for (int v = 0; v < scan.camera.height; v += 7) {
+    for (int u = 0; u < scan.camera.width; u += 7) {
+      const double centre = 1.0 / static_cast<double>(depth_m.at<float>(4 * v, 4 * u));
+      Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+      Eigen::Vector3d right = Eigen::Vector3d::Zero();
+      int samples = 0;
+      for (int dv = -6; dv <= 6; dv += 3) {
+        for (int du = -6; du <= 6; du += 3) {
+          const cv::Point pixel(4 * u + du, 4 * v + dv);
+          if (pixel.x < 0 || pixel.y < 0 || pixel.x >= camera.width || pixel.y >= camera.height) {
+            continue;
+          }
+          ++samples;
+          const double q = 1.0 / static_cast<double>(depth_m.at<float>(pixel));
+          if (std::abs(q - centre) < config.max_step_share * centre) {
+            const Eigen::Vector3d row(du, dv, 1.0);
+            squares += row * row.transpose();
+            right += q * row;
+          }
+        }
+      }
+      if (!std::isfinite(centre) || 2.0 * squares(2, 2) < samples) {
+        EXPECT_TRUE(scan.at(u, v).normal_camera.isZero());
+        continue;
+      }
+      const Eigen::Vector3d q = squares.inverse() * right;
+      const Eigen::Vector3d normal(q.x() * camera.fx, q.y() * camera.fy, q.z() - q.x() * (4 * u - camera.cx) - q.y() * (4 * v - camera.cy));
+      EXPECT_LT((scan.at(u, v).normal_camera.cast<double>() + normal.normalized()).norm(), 1e-4) << u << " " << v;
+      ++fitted;
+    }
+  }
+  EXPECT_GT(fitted, 300);
+}
+
 TEST(Scan, AnImageOfAnotherSizeBreaksTheContract) {
   EXPECT_THROW(static_cast<void>(makeScan(cv::Mat(480, 639, CV_32FC1), test::kinectCamera(), {})), base::ContractViolation);
   EXPECT_THROW(static_cast<void>(makeScan(cv::Mat(480, 640, CV_16UC1), test::kinectCamera(), {})), base::ContractViolation);
