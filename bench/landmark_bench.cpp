@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How well the fixed furniture corrects where the robot believes to be: a simulated drive through the kitchen of the demo home, kinect1,
 // the home believed wrongly by so many millimetres, from `prior.txt` (5 cm, 3 degrees), each frame on its own.
-//   landmark_bench [--belief-mm MM]… [--frames N] [--drives N] [--seed N] [--mount] [--recordings FOLDER] [--set KEY=VALUE]…
+//   landmark_bench [--belief-mm MM]… [--frames N] [--drives N] [--seed N] [--object ID] [--mount] [--recordings FOLDER] [--set KEY=VALUE]…
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -13,6 +13,7 @@
 #include <exception>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -41,6 +42,7 @@ struct Options {
   int drives = 5;    ///< each in another true home
   std::uint64_t seed = 1;
   int min_landmarks = 6;
+  std::string object;  ///< the one landmark; empty: all
   bool has_mount_error = false;
   fs::path recordings;  ///< empty: simulated into a temporary folder
   std::vector<std::string> settings;
@@ -108,19 +110,39 @@ int used(const registration::LandmarkRefinement& refinement) {
 struct BeliefScores {
   std::vector<FrameScore> before;
   std::vector<FrameScore> after;
+  std::vector<double> planar_nees;
   std::map<std::string, int> statuses;
   int few = 0;  ///< frames that use fewer pieces than are asked for
 };
 
-tracking::LocaliseConfig configOf(const Options& options) {
+/// Who says that a home is wrong by so much says it to the landmarks, too: a surface is off by its piece's place and by its dimensions.
+tracking::LocaliseConfig configOf(double belief_mm, const Options& options) {
+  constexpr double kPlaceAndSize = 2.0;
+  const double surface_sigma_m = std::max(0.001, kPlaceAndSize * 1e-3 * belief_mm);
   base::ConfigLayers layers;
+  layers.settings.push_back(base::parseSetting("landmarks.align.surface_sigma_m=" + base::toText(surface_sigma_m)));
+  layers.settings.push_back(base::parseSetting("landmarks.check.surface_sigma_m=" + base::toText(std::max(0.01, surface_sigma_m))));
   for (const std::string& text : options.settings) {
     layers.settings.push_back(base::parseSetting(text));
   }
   return base::loadConfig<tracking::LocaliseConfig>(layers);
 }
 
-void runDrive(const fs::path& folder, const Options& options, BeliefScores& scores) {
+/// Squared error of the robot's x, y and yaw in units of the stated covariance: 3 if it is honest. (Height and tilt of the camera are the
+/// prior's, which are right unless --mount.)
+double planarNees(const tracking::LocatedPose& located, const Eigen::Isometry3d& T_map_camera_true, const Eigen::Vector3d& robot_camera) {
+  const geometry::Vector6d xi = geometry::logSe3(located.T_map_camera.inverse() * T_map_camera_true);
+  const Eigen::Matrix3d R = located.T_map_camera.linear();
+  Eigen::Matrix<double, 3, 6> J = Eigen::Matrix<double, 3, 6>::Zero();
+  J.topLeftCorner<2, 3>() = R.topRows<2>();
+  J.topRightCorner<2, 3>() = -(R * geometry::skew(robot_camera)).topRows<2>();
+  J.bottomRightCorner<1, 3>() = R.bottomRows<1>();
+  const Eigen::Vector3d error = J * xi;
+  const Eigen::Matrix3d covariance = J * located.covariance * J.transpose();
+  return error.dot(covariance.ldlt().solve(error));
+}
+
+void runDrive(const fs::path& folder, const tracking::LocaliseConfig& config, const Options& options, BeliefScores& scores) {
   const auto recording = recording::openRecording(folder);
   const fs::path home_file = fs::path(OIKOS_DEMO_HOME) / "home.xml";
   registration::LandmarkScene furniture =
@@ -128,9 +150,13 @@ void runDrive(const fs::path& folder, const Options& options, BeliefScores& scor
   const tracking::PosePrior prior(recording::readTrajectory(folder / "prior.txt"), recording->T_base_camera().value());
   tracking::LocaliserTools tools{recording->camera()};
   tools.furniture = &furniture;
+  if (!options.object.empty()) {
+    tools.only = tracking::getLandmark(furniture, semantic::getHome(semantic::readHome(home_file), home_file), options.object);
+  }
   tools.T_base_camera = recording->T_base_camera().value();
   tools.prior = &prior;
-  tracking::Localiser localiser(tools, configOf(options));
+  tracking::Localiser localiser(tools, config);
+  const Eigen::Vector3d robot_camera = tools.T_base_camera.inverse().translation();
   const auto truth = recording::readTrajectory(folder / "groundtruth.txt");
   for (int i = 0; i < recording->frameCount(); ++i) {
     const camera::RgbdFrame frame = recording->read(i, recording::Channels::kGray);
@@ -138,7 +164,7 @@ void runDrive(const fs::path& folder, const Options& options, BeliefScores& scor
     const tracking::LocatedPose located = localiser.add(frame);
     const double latency_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     ++scores.statuses[std::string(base::toString(located.landmarks->status))];
-    if (used(*located.landmarks) < options.min_landmarks) {
+    if (used(*located.landmarks) < (tools.only ? 1 : options.min_landmarks)) {
       ++scores.few;
       continue;
     }
@@ -147,13 +173,24 @@ void runDrive(const fs::path& folder, const Options& options, BeliefScores& scor
     scores.after.push_back(scoreFrame(located.T_map_camera, T_map_camera, located.covariance));
     scores.after.back().found = located.source == tracking::PoseSource::kLandmarks;
     scores.after.back().latency_s = latency_s;
+    if (scores.after.back().found) {
+      scores.planar_nees.push_back(planarNees(located, T_map_camera, robot_camera));
+    }
   }
+}
+
+void printPlanarNees(const std::vector<double>& nees) {
+  constexpr double kChi3Of95 = 7.815;
+  const auto honest = std::count_if(nees.begin(), nees.end(), [](double squared) { return squared <= kChi3Of95; });
+  const double count = std::max(1.0, static_cast<double>(nees.size()));
+  std::printf("; of x, y and yaw NEES/3 %.2f, %.1f %% below the 95 %% limit\n",
+              std::accumulate(nees.begin(), nees.end(), 0.0) / (3.0 * count), 100.0 * static_cast<double>(honest) / count);
 }
 
 void runBelief(double belief_mm, const Options& options, const fs::path& scratch) {
   BeliefScores scores;
   for (int drive = 0; drive < options.drives; ++drive) {
-    runDrive(simulated(belief_mm, drive, options, scratch), options, scores);
+    runDrive(simulated(belief_mm, drive, options, scratch), configOf(belief_mm, options), options, scores);
   }
   const std::string name = std::to_string(static_cast<int>(belief_mm)) + " mm";
   printFrameScores(name + ", prior", scores.before);
@@ -162,7 +199,7 @@ void runBelief(double belief_mm, const Options& options, const fs::path& scratch
   for (const auto& [status, count] : scores.statuses) {
     std::printf(" %s %d", status.c_str(), count);
   }
-  std::printf("\n");
+  printPlanarNees(scores.planar_nees);
   std::fflush(stdout);
 }
 
@@ -176,6 +213,7 @@ int main(int argc, char** argv) {
   app.add_option("--drives", options.drives, "so many drives make up the frames, each in another true home")->check(CLI::PositiveNumber);
   app.add_option("--seed", options.seed, "of the drive and of what is wrong");
   app.add_option("--min-landmarks", options.min_landmarks, "frames that use fewer pieces are left out");
+  app.add_option("--object", options.object, "this piece alone, on demand");
   app.add_flag("--mount", options.has_mount_error, "the camera's mount is wrong, too");
   app.add_option("--recordings", options.recordings, "keep the drives there, and take them from there");
   app.add_option("--set", options.settings, "KEY=VALUE of the localisation; may be repeated");
