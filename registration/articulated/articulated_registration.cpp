@@ -12,6 +12,7 @@
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
 #include "registration/articulated/joint_profile.h"
+#include "registration/articulated/joint_values.h"
 #include "registration/articulated/scan_window.h"
 
 namespace oikos::registration {
@@ -72,21 +73,13 @@ class Run {
     return estimates_.standing.joint_values[static_cast<std::size_t>(tree_.links()[static_cast<std::size_t>(link)].joint)];
   }
 
-  /// The values of a joint that are looked at.
   void listValues(int link) {
     layers_.pose(tree_.partPoses(believed_.joint_values), false);
     const model::ModelJoint& joint = tree_.jointOf(link);
     JointEvidence& evidence = evidence_[static_cast<std::size_t>(link)];
     evidence.is_turn = joint.type == model::MotionType::kRevolute;
-    const double believed = valueOf(link);
     const double unlimited = evidence.is_turn ? std::numbers::pi : config_.unlimited_m;
-    const double lower = std::isfinite(joint.lower) ? joint.lower : std::min(believed, joint.upper) - unlimited;
-    const double upper = std::isfinite(joint.upper) ? joint.upper : std::max(believed, joint.lower) + unlimited;
-    const double way_m = (upper - lower) * std::max(0.05, layers_.lever(link));
-    const int steps = std::max(4, static_cast<int>(std::ceil(way_m / config_.stride_m)));
-    for (int i = 0; i <= steps; ++i) {
-      evidence.values.push_back(lower + (upper - lower) * i / steps);
-    }
+    evidence.values = valuesToLookAt(joint, valueOf(link), unlimited, config_.stride_m / std::max(0.05, layers_.lever(link)));
   }
 
   /// Where the piece can be seen, whatever its joints' values.
@@ -147,31 +140,10 @@ class Run {
                : evidence.values[static_cast<std::size_t>(best - evidence.log_likelihood.begin())];
   }
 
-  /// The local maxima of a profile that come near the best one, which is the first.
-  [[nodiscard]] std::vector<double> rivals(int link) const {
-    const JointEvidence& evidence = evidence_[static_cast<std::size_t>(link)];
-    const std::vector<double>& score = evidence.log_likelihood;
-    const double best = *std::max_element(score.begin(), score.end());
-    std::vector<std::size_t> peaks;
-    for (std::size_t i = 0; i < score.size(); ++i) {
-      const bool is_peak = (i == 0 || score[i] > score[i - 1]) && (i + 1 == score.size() || score[i] >= score[i + 1]);
-      if (is_peak && score[i] > std::max(0.0, (1.0 - config_.rival_share) * best)) {
-        peaks.push_back(i);
-      }
-    }
-    std::stable_sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return score[a] > score[b]; });
-    peaks.resize(std::min(peaks.size(), static_cast<std::size_t>(config_.most_rivals)));
-    std::vector<double> values;
-    for (const std::size_t peak : peaks) {
-      values.push_back(evidence.values[peak]);
-    }
-    return values;
-  }
-
   /// Two values that explain the image about as well as long as both are only roughly right: each is solved for, and judged again.
   void settleRivals(JointProfiler& profiler, JointSolver& solver) {
     for (const int link : movable()) {
-      const std::vector<double> starts = rivals(link);
+      const std::vector<double> starts = localMaxima(evidence_[static_cast<std::size_t>(link)], config_.rival_share, config_.most_rivals);
       if (starts.size() < 2) {
         continue;
       }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/se3.h"
+#include "registration/articulated/joint_equations.h"
 #include "registration/articulated/joint_profile.h"
 #include "registration/articulated/joint_tree.h"
 #include "registration/articulated/link_layers.h"
@@ -52,15 +53,6 @@ struct JointEstimates {
   std::vector<Eigen::Vector3d> shift_map;  ///< by link: where its joint is, from where the model has it
 };
 
-/// What became of the pixels that a link shows.
-struct LinkCounts {
-  int shown = 0;
-  int read = 0;      ///< of these, with a reading
-  int agreeing = 0;  ///< of these, within three deviations and facing as the link
-  int nearer = 0;    ///< something stands before it
-  int behind = 0;    ///< it is not there
-};
-
 struct SolverReport {
   geometry::Matrix6d base_covariance = geometry::Matrix6d::Zero();  ///< of the right perturbation of T_map_model (m, rad)
   std::vector<double> variances;                                    ///< by link: of its joint's value (rad^2 or m^2); the base's is 0
@@ -91,16 +83,14 @@ class JointSolver {
   [[nodiscard]] SolverReport report(const JointEstimates& estimates, const Freedom& freedom);
 
  private:
-  struct Equations;
-  void look(const JointEstimates& estimates, const Freedom& freedom, double sigma_m, Equations& equations);
+  [[nodiscard]] std::vector<Eigen::Isometry3d> T_map_part(const JointEstimates& estimates) const;
+  [[nodiscard]] std::vector<JointAxis> axesOf(const JointEstimates& estimates) const;
+  [[nodiscard]] JointEquations look(const JointEstimates& estimates, const Freedom& freedom, double width_m);
   [[nodiscard]] std::vector<char> countingLinks(const Freedom& freedom) const;
-  void addSurfaces(const render::View& view, double sigma_m, Equations& equations) const;
-  void addOutlines(const render::View& view, double sigma_m, Equations& equations) const;
-  void addPriors(const JointEstimates& estimates, Equations& equations) const;
-  [[nodiscard]] Eigen::VectorXd stepOf(const Equations& equations, const JointEstimates& estimates, const Freedom& freedom) const;
+  void addPriors(const JointEstimates& estimates, JointEquations& equations) const;
+  [[nodiscard]] Eigen::VectorXd stepOf(const JointEquations& equations, const JointEstimates& estimates, const Freedom& freedom) const;
   void apply(const Eigen::VectorXd& step, JointEstimates& estimates) const;
   [[nodiscard]] std::vector<int> freeIndices(const Freedom& freedom) const;
-  [[nodiscard]] Eigen::Isometry3d T_map_middle(const JointEstimates& estimates) const;
 
   const JointTree& tree_;
   WholeModel& model_;

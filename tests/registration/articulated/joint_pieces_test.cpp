@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "registration/articulated/joint_decision.h"
+#include "registration/articulated/joint_equations.h"
 #include "registration/articulated/joint_profile.h"
 #include "registration/articulated/joint_tree.h"
 #include "registration/articulated/pixel_mixture.h"
@@ -45,6 +46,70 @@ TEST(JointTree, VelocitiesAreThoseOfTheKinematics) {
       EXPECT_LT(((after - before) / kStep - axes[link].velocityOf(before)).norm(), 1e-5) << kind << " " << link;
     }
   }
+}
+
+/// Each column against the difference that a small step of what is free makes to a point of the link.
+TEST(JointEquations, JacobiansAreDifferences) {
+  const JointTree tree(model::makeShape("drawer_unit", {}, "drawer_unit"));
+  const JointTree door(model::makeShape("cabinet", {}, "cabinet"));
+  constexpr double kStep = 1e-6;
+  for (const JointTree* model : {&tree, &door}) {
+    const Eigen::Isometry3d T_map_model = Eigen::Translation3d(1.0, -2.0, 0.3) * Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d pivot_map = T_map_model * Eigen::Vector3d(0.1, 0.0, 0.4);
+    const std::vector<double> values(model->model().joints.size(), 0.15);
+    for (int link = 0; link < static_cast<int>(model->links().size()); ++link) {
+      const std::size_t part = static_cast<std::size_t>(model->links()[static_cast<std::size_t>(link)].parts.front());
+      const auto pointAt = [&](const Eigen::Isometry3d& T_map_moved, const std::vector<double>& moved) {
+        return Eigen::Vector3d(T_map_moved * model->partPoses(moved)[part] * Eigen::Vector3d(0.05, 0.2, -0.1));
+      };
+      PixelTerm term;
+      term.link = link;
+      term.model_map = pointAt(T_map_model, values);
+      term.normal_map = Eigen::Vector3d(0.6, -0.5, 0.4).normalized();
+      term.residual_m = 1.0;
+      term.weight = 1.0;
+      JointEquations equations(*model, model->axes(T_map_model, model->partPoses(values)), pivot_map, 0.005);
+      equations.add(term);
+      equations.gather(1.0, 100.0, std::vector<char>(model->links().size(), 1));
+      const auto slope = [&](const Eigen::Vector3d& moved_map) { return -term.normal_map.dot(moved_map - term.model_map) / kStep; };
+      for (int i = 0; i < 3; ++i) {
+        const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
+        EXPECT_NEAR(equations.g[i], slope(term.model_map + kStep * axis), 1e-5);
+        const Eigen::Isometry3d turn = Eigen::Translation3d(pivot_map) * Eigen::AngleAxisd(kStep, axis) * Eigen::Translation3d(-pivot_map);
+        EXPECT_NEAR(equations.g[3 + i], slope(pointAt(turn * T_map_model, values)), 1e-5);
+        if (link > 0) {
+          EXPECT_NEAR(equations.g[firstOf(link) + 1 + i], slope(term.model_map + kStep * axis), 1e-5);
+        }
+      }
+      for (int mover = 1; mover < static_cast<int>(model->links().size()); ++mover) {
+        std::vector<double> moved = values;
+        moved[static_cast<std::size_t>(model->links()[static_cast<std::size_t>(mover)].joint)] += kStep;
+        EXPECT_NEAR(equations.g[firstOf(mover)], slope(pointAt(T_map_model, moved)), 1e-5);
+      }
+      EXPECT_LT((equations.H - equations.g * equations.g.transpose()).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(JointEquations, ManyReadingsCountForSoManyAtMost) {
+  const JointTree tree(model::makeShape("cabinet", {}, "cabinet"));
+  const std::vector<double> values(1, 0.0);
+  PixelTerm term;
+  term.normal_map = Eigen::Vector3d::UnitX();
+  term.weight = 1.0;
+  term.reading = 1.0;
+  JointEquations equations(tree, tree.axes(Eigen::Isometry3d::Identity(), tree.partPoses(values)), Eigen::Vector3d::Zero(), 0.005);
+  for (int i = 0; i < 1000; ++i) {
+    equations.add(term);
+  }
+  term.link = 1;
+  equations.add(term);
+  JointEquations without_door = equations;
+  equations.gather(0.5, 100.0, {1, 1});
+  EXPECT_NEAR(equations.H(0, 0), 100.0 + 0.5, 1e-9);
+  EXPECT_NEAR(equations.surfaces()(0, 0), std::pow(100.0 * 0.005, 2.0), 1e-9);
+  without_door.gather(0.5, 100.0, {1, 0});
+  EXPECT_NEAR(without_door.H(0, 0), 100.0, 1e-9);
 }
 
 TEST(ScanWindow, HoldsWhatTheBoxShows) {
