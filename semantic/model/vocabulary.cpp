@@ -11,6 +11,103 @@ namespace {
 constexpr double kSecondsPerHour = 3600.0;
 constexpr double kUnknownStaysFor_h = 168.0;
 
+/// In full: "i do not know" is "I don't know" as well.
+std::vector<Term> builtInSurplus() {
+  return {
+      {"hello", {"hi", "hey", "hey there", "hi there", "good morning", "good afternoon", "good evening", "good day", "greetings"}},
+      {"please", {"kindly", "if you please", "if you would", "if you can", "if possible", "if you do not mind", "for me"}},
+      {"thanks", {"thank you", "thank you very much", "many thanks", "cheers", "ta"}},
+      {"sorry", {"excuse me", "sorry to bother you", "sorry to disturb you", "pardon", "pardon me", "um", "uh", "oh", "ah", "hm", "er"}},
+      {"ok", {"okay", "so", "and", "well", "right", "now then", "listen", "say", "anyway", "by the way", "then", "again", "also", "but"}},
+      {"quick", {"quickly", "hurry", "hurry up", "quick question", "asap", "right away", "at once", "immediately"}},
+      {"dear",
+       {"darling", "sweetheart", "honey", "love", "my dear", "my love", "my friend", "mate", "buddy", "pal", "sir", "madam", "dude"}},
+      {"robot", {"oikos", "dear robot", "hello robot", "good robot"}},
+      {"tell_me",
+       {"tell us",
+        "could you",
+        "would you",
+        "will you",
+        "can you please",
+        "can you possibly",
+        "can you tell me",
+        "can anyone tell me",
+        "can anybody tell me",
+        "can someone tell me",
+        "can somebody tell me",
+        "could anyone tell me",
+        "could someone tell me",
+        "be so kind as to",
+        "would you be so kind as to",
+        "be so good as to",
+        "would you be so good as to",
+        "would you mind telling me",
+        "would you mind",
+        "possibly",
+        "let me know",
+        "remind me",
+        "help me",
+        "can you help me",
+        "just",
+        "just tell me",
+        "show me if",
+        "say if"}},
+      {"do_you_know",
+       {"do you happen to know",
+        "do you remember",
+        "do you recall",
+        "does anyone know",
+        "does anybody know",
+        "does someone know",
+        "who knows",
+        "do you think",
+        "any idea",
+        "any clue",
+        "an idea",
+        "do you have any idea",
+        "do you have an idea",
+        "have you any idea",
+        "have you got any idea",
+        "have you got an idea",
+        "got any idea",
+        "would you know",
+        "would anyone know",
+        "would anybody know",
+        "would you happen to know",
+        "you know"}},
+      {"i_wonder",
+       {"i was wondering",
+        "i am wondering",
+        "i want to know",
+        "i would like to know",
+        "i would love to know",
+        "i need to know",
+        "i have to know",
+        "i must know",
+        "i forgot",
+        "i forget",
+        "i have forgotten",
+        "i do not know",
+        "i do not remember",
+        "i have no idea",
+        "no idea",
+        "i am not sure",
+        "not sure",
+        "can i ask",
+        "may i ask",
+        "could i ask",
+        "can i ask you",
+        "may i ask you"}},
+      {"if",
+       {"whether", "check if", "check whether", "see if", "see whether", "find out if", "find out whether", "look if", "look whether",
+        "make sure that", "find out"}},
+      {"or_not", {"or what", "or something", "or so", "do not you", "i guess", "i suppose", "i think", "i believe", "i hope"}},
+      {"exactly",
+       {"precisely", "in total", "altogether", "all together", "in all", "all in all", "at all", "by any chance", "by chance", "actually",
+        "though", "perhaps", "maybe"}},
+      {"correct", {"yes", "is that right", "is that correct", "am i right", "eh", "huh"}}};
+}
+
 bool contains(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -26,9 +123,11 @@ const std::vector<Term>& Vocabulary::of(TermKind kind) const {
     case TermKind::kAffordance:
       return affordances;
     case TermKind::kColor:
+      return colors;
+    case TermKind::kSurplus:
       break;
   }
-  return colors;
+  return surplus;
 }
 
 std::vector<Term>& Vocabulary::of(TermKind kind) {
@@ -97,6 +196,7 @@ Vocabulary builtInVocabulary() {
        {"washing_machine", {"washer"}},
        {"sink", {"washbasin", "basin"}},
        {"bathtub", {"tub"}},
+       {"tv", {"television", "telly"}},
        {"cup", {"mug", "beaker"}, 24.0},
        {"glass", {"tumbler"}, 24.0},
        {"bowl", {}, 24.0},
@@ -136,6 +236,7 @@ Vocabulary builtInVocabulary() {
        {"pink", {}},
        {"purple", {"violet"}},
        {"transparent", {"clear"}}},
+      builtInSurplus(),
   };
 }
 

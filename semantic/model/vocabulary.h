@@ -19,12 +19,13 @@ struct Term {
   bool operator==(const Term&) const = default;
 };
 
-enum class TermKind { kRoomType, kObjectType, kAffordance, kColor };
+enum class TermKind { kRoomType, kObjectType, kAffordance, kColor, kSurplus };
 constexpr auto enumTable(TermKind) {
   return std::to_array<base::EnumName<TermKind>>({{TermKind::kRoomType, "room"},
                                                   {TermKind::kObjectType, "object"},
                                                   {TermKind::kAffordance, "affordance"},
-                                                  {TermKind::kColor, "color"}});
+                                                  {TermKind::kColor, "color"},
+                                                  {TermKind::kSurplus, "surplus"}});
 }
 
 /// The words of a home (S360). Data, so that a home can have its own without a build.
@@ -33,6 +34,7 @@ struct Vocabulary {
   std::vector<Term> object_types;
   std::vector<Term> affordances;
   std::vector<Term> colors;
+  std::vector<Term> surplus;  ///< what people say around a question and mean nothing by: "could you tell me", "sweetheart"
 
   [[nodiscard]] std::vector<Term>& of(TermKind kind);
   [[nodiscard]] const std::vector<Term>& of(TermKind kind) const;

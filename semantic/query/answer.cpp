@@ -3,7 +3,7 @@
 
 #include "semantic/query/answer_context.h"
 #include "semantic/query/sentence.h"
-#include "semantic/query/thing_phrase.h"
+#include "semantic/query/utterance.h"
 #include "semantic/query/words.h"
 
 namespace oikos::semantic {
@@ -73,16 +73,43 @@ Answer notUnderstood(const std::string& word) {
   return refusal(word.empty() ? "I did not understand the question." : "I did not understand '" + word + "'.", word);
 }
 
-/// A noun alone asks where that is; as long as every word of it is one of the home's.
-std::optional<Question> nounAlone(const Inquiry& inquiry, const std::vector<std::string>& words) {
-  Question question;
-  question.thing = readThingPhrase(words);
-  if (question.thing.words.empty()) {
-    return std::nullopt;
+Answer answerTo(const Inquiry& inquiry, const Question& question) {
+  AnswerContext ctx(inquiry, question);
+  if (ctx.goToTime()) {
+    answererOf(question.kind)(ctx);
   }
-  const Resolution meant = Resolver(*inquiry.index, *inquiry.index, std::nullopt).resolve(question.thing);
-  const bool sure = meant.known && meant.corrected.empty() && !meant.things.empty();
-  return sure ? std::optional(std::move(question)) : std::nullopt;
+  return std::move(ctx.answer);
+}
+
+/// The less the surer that the question was understood.
+int doubtsAbout(const Answer& answer) {
+  const bool guessed = !answer.corrected.empty();
+  switch (answer.status) {
+    case AnswerStatus::kAnswered:
+      return guessed ? 2 : 0;
+    case AnswerStatus::kNothingFits:
+      return guessed ? 3 : 1;
+    case AnswerStatus::kUnknownWord:
+      return 4;
+    case AnswerStatus::kNotUnderstood:
+      break;
+  }
+  return 5;
+}
+
+Answer answerTo(const Inquiry& inquiry, const Hearing& heard) {
+  if (!heard.parsed.question) {
+    return notUnderstood(heard.parsed.not_understood);
+  }
+  Answer answer = answerTo(inquiry, *heard.parsed.question);
+  if (heard.parsed.otherwise && answer.status != AnswerStatus::kAnswered) {
+    Answer otherwise = answerTo(inquiry, *heard.parsed.otherwise);
+    if (doubtsAbout(otherwise) < doubtsAbout(answer)) {
+      answer = std::move(otherwise);
+    }
+  }
+  answer.not_understood.insert(answer.not_understood.end(), heard.passed_over.begin(), heard.passed_over.end());
+  return answer;
 }
 
 }  // namespace
@@ -91,23 +118,21 @@ Answer answerQuestion(const Inquiry& inquiry, std::string_view text) {
   if (text.size() > kMostQuestionBytes) {
     return refusal("The question is too long: at most " + std::to_string(kMostQuestionBytes) + " bytes.");
   }
-  std::vector<std::string> words = wordsOf(text);
-  if (words.size() > kMostWords) {
+  const Utterance utterance(*inquiry.index, text);
+  if (utterance.words() > kMostWords) {
     return refusal("The question is too long: at most " + std::to_string(kMostWords) + " words.");
   }
-  words = inquiry.index->words().joinNames(words);
-  ParsedQuestion parsed = parseQuestion(words);
-  if (!parsed.question) {
-    parsed.question = nounAlone(inquiry, words);
+  Answer answer = answerTo(inquiry, utterance.asOne());
+  if (doubtsAbout(answer) == 0) {
+    return answer;
   }
-  if (!parsed.question) {
-    return notUnderstood(parsed.not_understood);
+  for (const Hearing& heard : utterance.asClauses()) {
+    Answer other = answerTo(inquiry, heard);
+    if (doubtsAbout(other) < doubtsAbout(answer)) {
+      answer = std::move(other);
+    }
   }
-  AnswerContext ctx(inquiry, *parsed.question);
-  if (ctx.goToTime()) {
-    answererOf(parsed.question->kind)(ctx);
-  }
-  return std::move(ctx.answer);
+  return answer;
 }
 
 }  // namespace oikos::semantic

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "semantic/history/home_state.h"
+#include "semantic/query/grammar_words.h"
 #include "semantic/query/sentence.h"
 
 namespace oikos::semantic {
@@ -120,13 +121,21 @@ std::optional<Things> AnswerContext::takeOpenable() {
 }
 
 void AnswerContext::sayUnknown() {
+  std::vector<std::string> nouns = resolution_.unknown;
+  std::erase_if(nouns, [](const std::string& word) { return isGrammarWord(word); });
+  if (nouns.empty()) {  // no thing that the home lacks: the question was not read rightly
+    answer.status = AnswerStatus::kNotUnderstood;
+    answer.not_understood = resolution_.unknown;
+    answer.sentence = "I did not understand '" + resolution_.unknown.front() + "'.";
+    return;
+  }
   answer.status = AnswerStatus::kUnknownWord;
-  answer.not_understood = resolution_.unknown;
-  for (const std::string& word : resolution_.unknown) {
+  answer.not_understood = nouns;
+  for (const std::string& word : nouns) {
     const std::vector<std::string> near = index().words().nearestWords(word);
     answer.suggestions.insert(answer.suggestions.end(), near.begin(), near.end());
   }
-  answer.sentence = "Nothing in this home is called '" + joined(resolution_.unknown, "', '") + "'";
+  answer.sentence = "Nothing in this home is called '" + joined(nouns, "', '") + "'";
   answer.sentence += answer.suggestions.empty() ? "." : "; did you mean " + joined(answer.suggestions, " or ") + "?";
 }
 
@@ -191,6 +200,10 @@ std::string AnswerContext::be(std::size_t number) const {
     return number == 1 ? "was" : "were";
   }
   return number == 1 ? "is" : "are";
+}
+
+std::string AnswerContext::be(const Thing& thing) const {
+  return be(isPlural(thing) ? std::size_t{2} : std::size_t{1});
 }
 
 std::string AnswerContext::whenText() const {

@@ -50,6 +50,7 @@ class AnswerContext {
   void say(const std::string& sentence);
   /// "is", "are", "was", "were".
   [[nodiscard]] std::string be(std::size_t number) const;
+  [[nodiscard]] std::string be(const Thing& thing) const;
   /// "yesterday at 8:00, "; empty: the present.
   [[nodiscard]] std::string whenText() const;
 

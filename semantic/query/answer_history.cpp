@@ -207,7 +207,15 @@ void answerLastChange(AnswerContext& ctx) {
 
 void answerChanges(AnswerContext& ctx) {
   const auto asked = ctx.question().thing.words.empty() ? std::optional(Things()) : ctx.resolveThing();
-  if (!asked || !hasHistory(ctx)) {
+  if (!asked) {
+    return;
+  }
+  const bool whether = ctx.question().any;
+  if (whether && ctx.history() == nullptr) {
+    ctx.answer.yes = false;
+    return ctx.nothingFits("Not that I know: this home has no history.");
+  }
+  if (!hasHistory(ctx)) {
     return;
   }
   const ThingPhrase& phrase = ctx.question().thing;
@@ -237,7 +245,10 @@ void answerChanges(AnswerContext& ctx) {
     texts.push_back(ctx.answer.changes[i].text);
   }
   const std::string more = events.size() > texts.size() ? " Before that " + std::to_string(events.size() - texts.size()) + " more." : "";
-  ctx.say(texts.empty() ? "nothing that I know of." : joined(texts, "; ") + "." + more);
+  if (whether) {
+    ctx.answer.yes = !texts.empty();
+  }
+  ctx.say(texts.empty() ? "nothing that I know of." : (whether ? "yes: " : "") + joined(texts, "; ") + "." + more);
 }
 
 void answerHistory(AnswerContext& ctx) {

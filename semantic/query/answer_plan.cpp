@@ -4,6 +4,7 @@
 
 #include "core/base/number_text.h"
 #include "semantic/query/answer_context.h"
+#include "semantic/query/grammar_words.h"
 #include "semantic/query/sentence.h"
 #include "semantic/query/words.h"
 
@@ -11,10 +12,10 @@ namespace oikos::semantic {
 
 namespace {
 
-std::string partName(const LargeObject& object, const PartId& id) {
+std::string nameOfPart(const LargeObject& object, const PartId& id) {
   const auto& parts = object.articulation->parts;
   const auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.id == id; });
-  return part == parts.end() || part->label.empty() ? id.value : part->label;
+  return part == parts.end() ? id.value : partName(object, *part);
 }
 
 std::string carrierText(const Thing& thing) {
@@ -37,7 +38,7 @@ PlanStep goTo(const FoundThing& found, const Thing& thing) {
 PlanStep openStep(const LargeObject& object, const Joint& joint) {
   PlanStep step{StepKind::kOpen, joint.id.value, {}, ""};
   const bool turns = joint.type == JointType::kRevolute;
-  step.text = "open the " + partName(object, joint.child);
+  step.text = "open the " + nameOfPart(object, joint.child);
   const std::vector<HandlePlace> handles = handlesOf(object, joint);
   for (const HandlePlace& handle : handles) {
     step.T_map.push_back(handle.T_map_handle);
@@ -216,7 +217,9 @@ void answerHowGrasp(AnswerContext& ctx) {
                                           : thing.object != nullptr             ? thing.object->graspable || thing.kind == ThingKind::kPart
                                                                                 : false;
                    if (!graspable || found.T_map_grasp.empty()) {
-                     return theName(thing) + (graspable ? " has no known grasping point" : " cannot be grasped");
+                     return theName(thing) + (!graspable        ? " cannot be grasped"
+                                              : isPlural(thing) ? " have no known grasping point"
+                                                                : " has no known grasping point");
                    }
                    const Eigen::Vector3d at_map = found.T_map_grasp.front().translation();
                    return "grasp " + theName(thing) + " " + placeText(thing) + " at " + positionText(at_map) + ", " +
@@ -270,7 +273,7 @@ void answerFetch(AnswerContext& ctx) {
   ctx.take(*things);
   const Thing& thing = *things->front();
   if (thing.kind != ThingKind::kSmallObject || !thing.small_object->graspable) {
-    return ctx.say(theName(thing) + " " + ctx.be(1) + " " + placeText(thing) + ", but it cannot be carried.");
+    return ctx.say(theName(thing) + " " + ctx.be(thing) + " " + placeText(thing) + ", but cannot be carried.");
   }
   const std::vector<Candidate> candidates = candidatesFor(ctx, *thing.small_object);
   const FoundThing first = addLook(ctx, thingAt(ctx, thing, candidates.front().small), "");

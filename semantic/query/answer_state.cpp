@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers about states: what is open, and how far; what a knob is set to.
 #include <algorithm>
+#include <iterator>
 
 #include "core/base/number_text.h"
 #include "semantic/query/answer_context.h"
@@ -20,7 +21,7 @@ std::string knobText(const Knob& knob, const Thing& thing) {
 
 std::string stateSentence(const AnswerContext& ctx, const Thing& thing) {
   const bool several = jointsOf(thing).size() > 1;
-  return theName(thing) + (several ? ": " : " " + ctx.be(1) + " ") + stateText(thing);
+  return theName(thing) + (several ? ": " : " " + ctx.be(thing) + " ") + stateText(thing);
 }
 
 /// Whether all words of the state that was asked for are in the knob's state, or nothing: the knob cannot be so at all.
@@ -56,6 +57,20 @@ std::optional<std::int64_t> openedWithin(const AnswerContext& ctx, const Thing& 
   return std::nullopt;
 }
 
+struct KnobSeen {
+  const Thing* thing = nullptr;
+  const Knob* knob = nullptr;
+  bool is_so = false;
+};
+
+/// Of a yes those that are so, of a no those that are not; where that is none, all.
+template <class Fits>
+Things thoseThatTell(const Things& things, const Fits& fits, bool yes) {
+  Things telling;
+  std::copy_if(things.begin(), things.end(), std::back_inserter(telling), [&](const Thing* thing) { return fits(thing) == yes; });
+  return telling.empty() ? things : telling;
+}
+
 void answerIsOpen(AnswerContext& ctx) {
   const auto movable = ctx.takeOpenable();
   if (!movable) {
@@ -69,7 +84,9 @@ void answerIsOpen(AnswerContext& ctx) {
   } else if (so == 0 || ctx.question().all) {  // else: which one was meant cannot be told
     ctx.answer.yes = false;
   }
-  std::string sentence = listOf(*movable, [&](const Thing& thing) { return stateSentence(ctx, thing); });
+  const Things telling = ctx.answer.yes ? thoseThatTell(*movable, fits, *ctx.answer.yes) : *movable;
+  ctx.take(telling);
+  std::string sentence = listOf(telling, [&](const Thing& thing) { return stateSentence(ctx, thing); });
   if (const auto opened_ns =
           open && ctx.answer.yes == false && movable->size() == 1 ? openedWithin(ctx, *movable->front()) : std::nullopt) {
     ctx.answer.yes = true;
@@ -89,28 +106,31 @@ void answerIsState(AnswerContext& ctx) {
   if (!things) {
     return;
   }
-  Things settable;
-  std::vector<std::string> texts;
-  std::size_t so = 0;
-  std::size_t knobs = 0;
+  std::vector<KnobSeen> knobs;
   for (const Thing* thing : *things) {
     for (const Knob* knob : knobsOf(*thing)) {
       if (const auto is_so = isSetTo(*knob, ctx.question().state)) {
-        ++knobs;
-        so += *is_so ? 1 : 0;
-        texts.push_back(knobText(*knob, *thing) + " " + ctx.be(1) + " set to " + knob->current);
-        settable.push_back(thing);
+        knobs.push_back({thing, knob, *is_so});
       }
     }
   }
-  if (settable.empty()) {
+  if (knobs.empty()) {
     return ctx.nothingFits("I know of nothing that would set the " + ctx.question().thing.said + " to '" + ctx.question().state + "'.");
   }
-  ctx.take(settable);
   // "on": one knob of the oven will do; anything else asks for all.
-  const bool any_will_do = ctx.question().state == "on" || ctx.question().state == "running";
-  ctx.answer.yes = any_will_do ? so > 0 : so == knobs;
-  ctx.say((*ctx.answer.yes ? "yes: " : "no: ") + enumerated(texts) + ".");
+  const bool any_will_do = ctx.question().any || ctx.question().state == "on" || ctx.question().state == "running";
+  const auto is_so = [](const KnobSeen& seen) { return seen.is_so; };
+  const bool yes = any_will_do ? std::any_of(knobs.begin(), knobs.end(), is_so) : std::all_of(knobs.begin(), knobs.end(), is_so);
+  std::erase_if(knobs, [&](const KnobSeen& seen) { return seen.is_so != yes; });  // those that tell
+  Things telling;
+  std::vector<std::string> texts;
+  for (const KnobSeen& seen : knobs) {
+    telling.push_back(seen.thing);
+    texts.push_back(knobText(*seen.knob, *seen.thing) + " " + ctx.be(1) + " set to " + seen.knob->current);
+  }
+  ctx.take(telling);
+  ctx.answer.yes = yes;
+  ctx.say((yes ? "yes: " : "no: ") + enumerated(texts) + ".");
 }
 
 void answerWhichState(AnswerContext& ctx) {
@@ -121,9 +141,10 @@ void answerWhichState(AnswerContext& ctx) {
   const std::string& state = ctx.question().state;
   Things fitting;
   bool any_has_it = false;
+  const bool is_opening = state == "open" || state == "closed";
   for (const Thing* thing : *things) {
     bool fits = false;
-    if (state == "open" || state == "closed") {
+    if (is_opening) {
       const auto open = isOpen(*thing);
       any_has_it = any_has_it || open.has_value();
       fits = open && *open == (state == "open");
@@ -143,8 +164,7 @@ void answerWhichState(AnswerContext& ctx) {
   }
   ctx.take(fitting);
   ctx.say(fitting.empty() ? "none." : listOf(fitting, [&](const Thing& thing) {
-                                        return jointsOf(thing).empty() ? theName(thing) + " " + ctx.be(1) + " " + state
-                                                                       : stateSentence(ctx, thing);
+                                        return is_opening ? stateSentence(ctx, thing) : theName(thing) + " " + ctx.be(thing) + " " + state;
                                       }) + ".");
 }
 

@@ -11,14 +11,21 @@ namespace oikos::semantic {
 namespace {
 
 std::string nameAndPlace(const Thing& thing) {
-  return theName(thing) + " " + placeText(thing);
+  return thing.kind == ThingKind::kRoom ? theName(thing) : theName(thing) + " " + placeText(thing);
 }
 
-/// "the cups fit": how the question called them.
+std::string placeSaid(const PlacePhrase& place) {
+  return std::string(base::toString(place.relation)) + " the " + place.thing.said;
+}
+
+/// How the question called the places.
 std::string placesSaid(const ThingPhrase& phrase) {
   std::string text;
   for (const PlacePhrase& place : phrase.places) {
-    text += " " + std::string(base::toString(place.relation)) + " the " + place.thing.said;
+    text += (place.negated ? " not " : " ") + placeSaid(place);
+    for (const PlacePhrase& other : place.or_at) {
+      text += other.thing.said == place.thing.said ? "" : " or " + placeSaid(other);
+    }
   }
   return text;
 }
@@ -84,7 +91,7 @@ void answerWhere(AnswerContext& ctx) {
     return ctx.say(std::to_string(things->size()) + " things fit: " + listOf(*things, nameAndPlace) + ".");
   }
   const Thing& thing = *things->front();
-  std::string sentence = theName(thing) + " " + ctx.be(1) + " " + placeText(thing);
+  std::string sentence = theName(thing) + " " + ctx.be(thing) + " " + placeText(thing);
   if (thing.kind == ThingKind::kSmallObject && thing.small_object->last_seen_ns && !ctx.answer.at_ns) {
     sentence += ", last seen " + ctx.clock().text(*thing.small_object->last_seen_ns);
   }
@@ -105,7 +112,7 @@ void answerUsualPlace(AnswerContext& ctx) {
     for (const Placement& placement : thing->small_object->default_places) {
       places.push_back(placementText(ctx, placement));
     }
-    texts.push_back(theName(*thing) + " belongs " + joined(places, " or "));
+    texts.push_back(theName(*thing) + (isPlural(*thing) ? " belong " : " belongs ") + joined(places, " or "));
   }
   ctx.say(enumerated(texts) + ".");
 }
@@ -124,7 +131,8 @@ void answerContents(AnswerContext& ctx) {
     return ctx.nothingFits("I know of " + what + ".");
   }
   ctx.take(*things);
-  ctx.say(listOf(*things, theName) + " " + ctx.be(things->size()) + placesSaid(ctx.question().thing) + ".");
+  ctx.say(listOf(*things, theName) + " " + (things->size() == 1 ? ctx.be(*things->front()) : ctx.be(things->size())) +
+          placesSaid(ctx.question().thing) + ".");
 }
 
 void answerCount(AnswerContext& ctx) {
@@ -142,6 +150,39 @@ void answerCount(AnswerContext& ctx) {
   ctx.answer.count = things->size();
 }
 
+namespace {
+
+/// Whether something of each noun is there: "a knife and a fork".
+bool isThereOfEach(const AnswerContext& ctx, const ThingPhrase& thing) {
+  if (thing.either || thing.others.empty()) {
+    return true;
+  }
+  ThingPhrase first = thing;
+  first.others.clear();
+  return !ctx.resolve(first).things.empty() && std::all_of(thing.others.begin(), thing.others.end(), [&](const ThingPhrase& other) {
+    return !ctx.resolve(other).things.empty() && isThereOfEach(ctx, other);
+  });
+}
+
+void clearPlaces(ThingPhrase& thing) {
+  thing.places.clear();
+  std::for_each(thing.others.begin(), thing.others.end(), clearPlaces);
+}
+
+/// Those that are called so but are not among the things at the question's places.
+Things missingOf(const AnswerContext& ctx, const Things& there) {
+  ThingPhrase anywhere = ctx.question().thing;
+  clearPlaces(anywhere);
+  if (anywhere.words.empty() || ctx.question().thing.places.empty()) {
+    return {};
+  }
+  Things others = ctx.resolve(anywhere).things;
+  std::erase_if(others, [&](const Thing* thing) { return std::find(there.begin(), there.end(), thing) != there.end(); });
+  return others;
+}
+
+}  // namespace
+
 void answerIsThere(AnswerContext& ctx) {
   const auto things = ctx.resolveThing();
   if (!things) {
@@ -151,15 +192,16 @@ void answerIsThere(AnswerContext& ctx) {
     return ctx.nothingFits();
   }
   ctx.take(*things);
-  ctx.answer.yes = !things->empty();
-  if (!things->empty()) {
+  const Things elsewhere = missingOf(ctx, *things);
+  ctx.answer.yes = !things->empty() && isThereOfEach(ctx, ctx.question().thing) && (elsewhere.empty() || !ctx.question().all);
+  if (*ctx.answer.yes) {
     return ctx.say(
-        "yes: " + listOf(*things, [&](const Thing& thing) { return theName(thing) + " " + ctx.be(1) + " " + placeText(thing); }) + ".");
+        "yes: " + listOf(*things, [&](const Thing& thing) { return theName(thing) + " " + ctx.be(thing) + " " + placeText(thing); }) + ".");
   }
-  ThingPhrase anywhere = ctx.question().thing;
-  anywhere.places.clear();
-  const Things others = anywhere.words.empty() ? Things() : ctx.resolve(anywhere).things;
-  ctx.say("not that I know" + (others.empty() ? "" : ": " + listOf(others, nameAndPlace)) + ".");
+  if (!things->empty() && !ctx.question().all) {
+    return ctx.say("only " + listOf(*things, nameAndPlace) + ".");
+  }
+  ctx.say((things->empty() ? "not that I know" : "not all") + (elsewhere.empty() ? "" : ": " + listOf(elsewhere, nameAndPlace)) + ".");
 }
 
 void answerProperty(AnswerContext& ctx) {
@@ -171,7 +213,8 @@ void answerProperty(AnswerContext& ctx) {
   }
   std::vector<std::string> texts;
   for (const Thing* thing : *known) {
-    texts.push_back(theName(*thing) + " is " + propertyOf(*thing, asked));
+    const std::string verb = asked == "content" ? (isPlural(*thing) ? "contain" : "contains") : ctx.be(*thing);
+    texts.push_back(theName(*thing) + " " + verb + " " + propertyOf(*thing, asked));
   }
   ctx.say(enumerated(texts) + ".");
 }
@@ -189,7 +232,7 @@ void answerDistance(AnswerContext& ctx) {
   ctx.take(*things);
   ctx.say(listOf(*things,
                  [&](const Thing& thing) {
-                   return theName(thing) + " " + ctx.be(1) + " " + base::toFixedText(distanceBetween(thing, other), 2) + " m from " +
+                   return theName(thing) + " " + ctx.be(thing) + " " + base::toFixedText(distanceBetween(thing, other), 2) + " m from " +
                           theName(other);
                  }) +
           ".");

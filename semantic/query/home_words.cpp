@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/nearest_name.h"
+#include "semantic/query/grammar_words.h"
 #include "semantic/query/words.h"
 
 namespace oikos::semantic {
@@ -74,6 +75,10 @@ std::vector<std::uint32_t> Lookup::best() const {
 }
 
 HomeWords::HomeWords(const Vocabulary& vocabulary) {
+  for (const Term& term : vocabulary.of(TermKind::kSurplus)) {
+    addSurplus(spaced(term.name));
+    std::for_each(term.synonyms.begin(), term.synonyms.end(), [&](const std::string& phrase) { addSurplus(phrase); });
+  }
   for (const TermKind kind : {TermKind::kRoomType, TermKind::kObjectType, TermKind::kColor}) {
     for (const Term& term : vocabulary.of(kind)) {
       std::vector<std::string> phrases = term.synonyms;
@@ -81,7 +86,7 @@ HomeWords::HomeWords(const Vocabulary& vocabulary) {
       for (const std::string& phrase : phrases) {
         const std::vector<std::string> words = singular(plainWords(phrase));
         longest_phrase_ = std::max(longest_phrase_, words.size());
-        term_of_phrase_.try_emplace(join(words, 0, words.size()), term.name);
+        terms_of_phrase_[join(words, 0, words.size())].push_back(term.name);
         addName(phrase);
       }
       terms_.insert(term.name);
@@ -91,6 +96,7 @@ HomeWords::HomeWords(const Vocabulary& vocabulary) {
 
 void HomeWords::add(const Thing& thing) {
   // A part's id says what it belongs to: "bathroom-cabinet-left-door" is no "bathroom door".
+  std::string spoken;
   std::vector<Text> texts{{thing.id(), false, thing.kind != ThingKind::kPart && thing.kind != ThingKind::kKnob}};
   const auto addFurniture = [&](bool own) {
     texts.push_back({thing.object->id.value, false, own});
@@ -105,21 +111,26 @@ void HomeWords::add(const Thing& thing) {
       addFurniture(true);
       break;
     case ThingKind::kPart:
-      texts.push_back({thing.part->label, true});
+      spoken = partName(*thing.object, *thing.part);
+      spoken = thing.part->label.empty() && spoken == thing.object->type ? "" : spoken;  // the leaf of a door is the door
+      texts.push_back({spoken, true});
       addFurniture(false);
       break;
     case ThingKind::kKnob:
-      texts.insert(texts.end(), {{thing.knob->label}, {"knob", true}});
+      texts.insert(texts.end(), {{spoken = knobName(*thing.object, *thing.knob)}, {"knob", true}});
       addFurniture(false);
       break;
     case ThingKind::kSmallObject:
       texts.insert(texts.end(), {{thing.small_object->label}, {thing.small_object->type, true}});
       for (const Property& property : thing.small_object->properties) {
-        texts.push_back({property.value});
+        texts.push_back({property.value, false, true, true});
       }
   }
   for (const Text& text : texts) {
     addText(next_, text);
+  }
+  if (thing.kind == ThingKind::kRoom) {
+    addPosting("rooms", {next_, kOwn | kHead | kType | kWhole});  // all of them; "the room" may be the living room
   }
   numbers_.try_emplace(thing.id(), next_++);
 }
@@ -131,11 +142,17 @@ void HomeWords::addText(std::uint32_t number, const Text& text) {
   const std::uint8_t own = text.is_own ? kOwn : 0;
   for (const Phrase& phrase : phrases) {
     const bool last = &phrase == &phrases.back();
-    const int whole = (text.is_type ? kType : 0) | (phrases.size() == 1 ? kWhole : 0);
+    const int whole = (text.is_type ? kType : 0) | (phrases.size() == 1 ? kWhole : 0) | (text.is_property ? 0 : kNoun);
     const auto fit = static_cast<std::uint8_t>(text.is_own && last ? own | kHead | whole : own);
-    const auto term = term_of_phrase_.find(phrase.text);
+    const auto named = terms_of_phrase_.find(phrase.text);
     const bool is_term = phrase.count == 1 && terms_.contains(words[phrase.first]);
-    addPosting(is_term ? words[phrase.first] : term == term_of_phrase_.end() ? phrase.text : term->second, {number, fit});
+    if (is_term || named == terms_of_phrase_.end()) {
+      addPosting(is_term ? words[phrase.first] : phrase.text, {number, fit});
+    } else {
+      for (const std::string& term : named->second) {
+        addPosting(term, {number, fit});
+      }
+    }
     for (std::size_t i = phrase.first; i < phrase.first + phrase.count; ++i) {
       const bool is_phrase = phrase.count == 1;
       const bool ends = last && text.is_own && i + 1 == phrase.first + phrase.count;
@@ -189,7 +206,7 @@ std::vector<HomeWords::Phrase> HomeWords::phrasesOf(const std::vector<std::strin
   std::vector<Phrase> phrases;
   for (std::size_t begin = 0; begin < words.size();) {
     std::size_t count = std::min(longest_phrase_, words.size() - begin);
-    while (count > 1 && !term_of_phrase_.contains(join(words, begin, count))) {
+    while (count > 1 && !terms_of_phrase_.contains(join(words, begin, count))) {
       --count;
     }
     phrases.push_back({join(words, begin, count), begin, count});
@@ -198,10 +215,10 @@ std::vector<HomeWords::Phrase> HomeWords::phrasesOf(const std::vector<std::strin
   return phrases;
 }
 
-std::size_t HomeWords::Meaning::size() const {
-  std::size_t total = named == nullptr ? 0 : named->size();
-  for (const Postings* list : said) {
-    total += list->size();
+std::size_t HomeWords::sizeOf(const Meaning& meaning) {
+  std::size_t total = 0;
+  for (const Sense& sense : meaning) {
+    total += sense.things->size();
   }
   return total;
 }
@@ -212,27 +229,42 @@ HomeWords::Meaning HomeWords::meaningOf(const std::string& phrase, const std::st
   const auto add = [&](const std::string& word) {
     const auto list = things_of_word_.find(word);
     if (list != things_of_word_.end()) {
-      meaning.said.push_back(&list->second);
+      meaning.push_back({&list->second, false});
     } else if (terms_.contains(word)) {
-      meaning.said.push_back(&nothing);
+      meaning.push_back({&nothing, false});
     }
   };
   add(phrase);
   if (verbatim != phrase) {
     add(verbatim);
   }
-  if (const auto term = term_of_phrase_.find(phrase); term != term_of_phrase_.end() && term->second != phrase && term->second != verbatim) {
-    const auto list = things_of_word_.find(term->second);
-    meaning.named = list == things_of_word_.end() ? &nothing : &list->second;
+  if (const auto terms = terms_of_phrase_.find(phrase); terms != terms_of_phrase_.end()) {
+    for (const std::string& term : terms->second) {
+      if (term != phrase && term != verbatim) {
+        const auto list = things_of_word_.find(term);
+        meaning.push_back({list == things_of_word_.end() ? &nothing : &list->second, true});
+      }
+    }
   }
   return meaning;
+}
+
+bool HomeWords::isNoun(const std::string& word) const {
+  const Meaning meaning = meaningOf(singularOf(word), word);
+  return std::any_of(meaning.begin(), meaning.end(), [](const Sense& sense) {
+    return std::any_of(sense.things->begin(), sense.things->end(), [](const Posting& posting) { return (posting.fit & kNoun) != 0; });
+  });
+}
+
+bool HomeWords::knows(const std::string& word) const {
+  return !meaningOf(singularOf(word), word).empty();
 }
 
 /// The first in the alphabet of the known words that one typing error makes of it; empty: none.
 std::string HomeWords::correctionOf(const std::string& word) const {
   constexpr std::size_t kShortest = 4;
   std::string best;
-  if (word.size() < kShortest) {
+  if (word.size() < kShortest || isGrammarWord(word)) {
     return best;
   }
   const auto offer = [&](const std::string& known) {
@@ -240,8 +272,8 @@ std::string HomeWords::correctionOf(const std::string& word) const {
       best = known;
     }
   };
-  for (const auto& [phrase, term] : term_of_phrase_) {
-    if (things_of_word_.contains(term)) {
+  for (const auto& [phrase, terms] : terms_of_phrase_) {
+    if (std::any_of(terms.begin(), terms.end(), [&](const std::string& term) { return things_of_word_.contains(term); })) {
       offer(phrase);
     }
   }
@@ -254,13 +286,14 @@ std::string HomeWords::correctionOf(const std::string& word) const {
 }
 
 std::vector<std::string> HomeWords::nearestWords(const std::string& word) const {
-  constexpr int kMostSlips = 2;
   constexpr std::size_t kMost = 3;
+  constexpr std::size_t kLong = 6;
+  const int most_slips = word.size() < kLong ? 1 : 2;  // "dear" is no "desk"
   std::vector<std::pair<int, std::string>> near;
   for (const auto& [known, list] : things_of_word_) {
     const std::size_t longer = std::max(known.size(), word.size());
-    if (longer - std::min(known.size(), word.size()) <= kMostSlips && longer > 3) {
-      if (const int slips = base::editDistance(word, known); slips <= kMostSlips) {
+    if (longer - std::min(known.size(), word.size()) <= static_cast<std::size_t>(most_slips) && longer > 3) {
+      if (const int slips = base::editDistance(word, known); slips <= most_slips) {
         near.emplace_back(slips, known);
       }
     }
@@ -290,28 +323,21 @@ std::optional<int> HomeWords::rankOf(const Meaning& meaning, std::uint32_t thing
     }
     rank = std::min(rank.value_or(here), here);
   };
-  for (const Postings* list : meaning.said) {
-    look(*list, false);
-  }
-  if (meaning.named != nullptr) {
-    look(*meaning.named, true);
+  for (const Sense& sense : meaning) {
+    look(*sense.things, sense.by_other_word);
   }
   return rank;
 }
 
 void HomeWords::intersect(const std::vector<Meaning>& meanings, Lookup& lookup) {
   const auto least =
-      std::min_element(meanings.begin(), meanings.end(), [](const Meaning& a, const Meaning& b) { return a.size() < b.size(); });
+      std::min_element(meanings.begin(), meanings.end(), [](const Meaning& a, const Meaning& b) { return sizeOf(a) < sizeOf(b); });
   std::vector<std::uint32_t> candidates;
-  candidates.reserve(least->size());
-  const auto gather = [&](const Postings& list) {
-    for (const Posting& posting : list) {
+  candidates.reserve(sizeOf(*least));
+  for (const Sense& sense : *least) {
+    for (const Posting& posting : *sense.things) {
       candidates.push_back(posting.thing);
     }
-  };
-  std::for_each(least->said.begin(), least->said.end(), [&](const Postings* list) { gather(*list); });
-  if (least->named != nullptr) {
-    gather(*least->named);
   }
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());

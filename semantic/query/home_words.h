@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -46,26 +47,35 @@ class HomeWords {
   [[nodiscard]] std::vector<std::string> joinNames(const std::vector<std::string>& words) const;
   /// Known words that are at most two slips away, the nearest first; at most three.
   [[nodiscard]] std::vector<std::string> nearestWords(const std::string& word) const;
+  /// Whether something is called so, or the vocabulary has it, without any correction.
+  [[nodiscard]] bool knows(const std::string& word) const;
+  /// Whether something is called so, not only has it as a property: "cup", but not "red".
+  [[nodiscard]] bool isNoun(const std::string& word) const;
+  /// Whether the vocabulary calls just these words surplus, even if one of them names something too.
+  [[nodiscard]] bool isSurplus(std::span<const std::string> words) const;
+  /// Takes what the vocabulary calls surplus off both ends: "could you tell me", "sweetheart". All of the words may go.
+  [[nodiscard]] std::span<const std::string> withoutSurplus(std::span<const std::string> words) const;
 
  private:
   /// How a word fits a thing; the bits of a mark.
-  enum Fit : std::uint8_t { kOwn = 1, kType = 2, kWhole = 4, kHead = 8 };
+  enum Fit : std::uint8_t { kOwn = 1, kType = 2, kWhole = 4, kHead = 8, kNoun = 16 };
   struct Posting {
     std::uint32_t thing = 0;
     std::uint8_t fit = 0;
   };
   using Postings = std::vector<Posting>;
-  /// One word of a question: everything that it may mean.
-  struct Meaning {
-    std::vector<const Postings*> said;  ///< by the word itself, or its singular
-    const Postings* named = nullptr;    ///< by what the vocabulary calls it
-    [[nodiscard]] std::size_t size() const;
-    [[nodiscard]] bool empty() const { return said.empty() && named == nullptr; }
+  /// Things that a word fits: by itself or its singular, or by what the vocabulary calls it.
+  struct Sense {
+    const Postings* things = nullptr;
+    bool by_other_word = false;
   };
+  /// One word of a question: everything that it may mean.
+  using Meaning = std::vector<Sense>;
   struct Text {
     std::string_view text;
     bool is_type = false;
     bool is_own = true;  ///< not only its furniture's
+    bool is_property = false;
   };
   struct StringHash {
     using is_transparent = void;
@@ -87,13 +97,18 @@ class HomeWords {
   [[nodiscard]] std::vector<Phrase> phrasesOf(const std::vector<std::string>& words) const;
   /// Of a phrase; `verbatim`: as it was written, where it is one word. Empty: the word means nothing here.
   [[nodiscard]] Meaning meaningOf(const std::string& phrase, const std::string& verbatim) const;
+  [[nodiscard]] static std::size_t sizeOf(const Meaning& meaning);
+  void addSurplus(const std::string& phrase);
+  [[nodiscard]] std::size_t surplusAtFront(std::span<const std::string> words) const;
+  [[nodiscard]] std::size_t surplusAtBack(std::span<const std::string> words) const;
   [[nodiscard]] std::string correctionOf(const std::string& word) const;
   [[nodiscard]] static std::optional<int> rankOf(const Meaning& meaning, std::uint32_t thing, bool is_last);
   static void intersect(const std::vector<Meaning>& meanings, Lookup& lookup);
 
-  Table<Postings> things_of_word_;         // walked through for a misspelt word only, to its least
-  Table<std::string> term_of_phrase_;      // of the vocabulary: synonym or name in singular words -> name
-  std::unordered_set<std::string> terms_;  // names of the vocabulary
+  Table<Postings> things_of_word_;                   // walked through for a misspelt word only, to its least
+  Table<std::vector<std::string>> terms_of_phrase_;  // of the vocabulary: synonym or name in singular words -> names
+  Table<std::vector<std::vector<std::string>>> surplus_by_first_, surplus_by_last_;  // the longest first
+  std::unordered_set<std::string> terms_;                                            // names of the vocabulary
   std::unordered_set<std::string> names_;
   std::size_t longest_name_ = 0;  ///< words
   Table<std::uint32_t> numbers_;

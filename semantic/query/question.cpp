@@ -6,25 +6,19 @@
 
 #include "semantic/query/question_draft.h"
 #include "semantic/query/question_kinds.h"
+#include "semantic/query/time_words.h"
 
 namespace oikos::semantic {
 
 namespace {
 
-void skipPoliteness(WordCursor& words) {
-  while (words.take({"please", "hey", "hello", "hi", "ok", "okay", "oikos", "so", "and", "well", "quick", "quickly", "say", "um", "oh",
-                     "sorry", "excuse", "thanks"}) ||
-         words.takeAll({"tell", "me"}) || words.takeAll({"can", "you", "tell", "me"}) || words.takeAll({"could", "you"}) ||
-         words.takeAll({"would", "you"}) || words.takeAll({"will", "you"}) || words.takeAll({"do", "you", "know"}) ||
-         words.takeAll({"do", "you", "remember"}) || words.takeAll({"any", "idea"}) || words.takeAll({"i", "wonder"}) ||
-         words.takeAll({"i", "want", "to", "know"}) || words.takeAll({"let", "me", "know"}) || words.takeAll({"if"}) ||
-         words.takeAll({"whether"}) || words.takeAll({"id", "like", "to", "know"}) || words.takeAll({"i", "would", "like", "to", "know"}) ||
-         words.takeAll({"i", "forgot"}) || words.takeAll({"remind", "me"})) {
-  }
-  while (words.takeBack({"please", "thanks", "again", "then", "exactly", "right"})) {
-  }
-  if (words.startsWith({"can", "you"}) && words.rest().size() > 2 && !isSeeing(words.rest()[2])) {
-    words.drop(2);
+/// "could you bring me X", "will you please fetch X".
+void skipRequest(WordCursor& words) {
+  WordCursor ahead = words;
+  if (ahead.take({"can", "could", "would", "will"}) && ahead.take({"you", "anyone", "anybody", "someone", "somebody"})) {
+    while (ahead.take({"please", "kindly", "possibly", "quickly", "just"})) {
+    }
+    words = !ahead.empty() && !isSeeing(ahead.front()) ? ahead : words;
   }
 }
 
@@ -36,7 +30,19 @@ bool takeTrailingWhere(WordCursor& words) {
     words.dropBack(3);
     return true;
   }
+  if (size > 2 && rest[size - 1] == "where" && isBe(rest[size - 2])) {  // "the cup is where"
+    words.dropBack(2);
+    return true;
+  }
   return false;
+}
+
+/// "in which", "on what".
+bool takeWhichOf(WordCursor& words) {
+  WordCursor ahead = words;
+  const bool taken = ahead.take({"in", "on", "at", "under", "inside"}) && ahead.take({"which", "what"});
+  words = taken ? ahead : words;
+  return taken;
 }
 
 bool readKind(QuestionDraft& draft) {
@@ -44,50 +50,82 @@ bool readKind(QuestionDraft& draft) {
   if (takeTrailingWhere(words)) {
     return draft.finish(QuestionKind::kWhere);
   }
-  if (words.take({"where", "wheres"})) {
+  if (words.take({"where", "whereabouts"})) {
     return readWhere(draft);
   }
   if (words.takeAll({"from", "where"})) {
     return readStand(draft);
   }
+  if (words.takeAll({"by", "how", "much"})) {
+    return readHowFar(draft);
+  }
   if (words.take({"how"})) {
     return readHow(draft);
   }
-  if (words.take({"when"})) {
+  if (words.take({"when"}) || words.takeAll({"at", "what", "time"}) || words.takeAll({"what", "time"})) {
     return readWhen(draft);
   }
-  if (words.takeAll({"in", "which"}) || words.takeAll({"in", "what"}) || words.takeAll({"on", "which"}) || words.takeAll({"on", "what"})) {
+  if (takeWhichOf(words)) {
     return readWhichPlace(draft);
   }
-  if (words.take({"what", "which", "whats"})) {
+  if (words.take({"what", "which"})) {
     return readWhat(draft);
   }
   if (words.takeAll({"number", "of"}) || words.takeAll({"the", "number", "of"}) || words.take({"count"})) {
     return draft.finish(QuestionKind::kCount);
   }
-  return readYesNo(draft) || readCommand(draft) || readSentence(draft);
+  return readNamed(draft) || readYesNo(draft) || readCommand(draft) || readSentence(draft);
 }
 
 bool mayBeOfAnything(QuestionKind kind) {
-  return kind == QuestionKind::kChanges || kind == QuestionKind::kWhatFor || kind == QuestionKind::kWhichState;
+  return kind == QuestionKind::kChanges || kind == QuestionKind::kWhatFor || kind == QuestionKind::kWhichState ||
+         kind == QuestionKind::kIsState;
 }
 
 ParsedQuestion readQuestion(Words words) {
   QuestionDraft draft{WordCursor(words)};
-  skipPoliteness(draft.words);
+  skipRequest(draft.words);
   const std::string first = draft.words.empty() ? "" : draft.words.front();
   if (readKind(draft) && (!draft.question.thing.empty() || mayBeOfAnything(draft.question.kind))) {
-    return {std::move(draft.question), draft.is_statement, {}};
+    return {std::move(draft.question), std::move(draft.otherwise), draft.is_statement, {}};
   }
-  return {std::nullopt, false, draft.words.empty() ? first : draft.words.front()};
+  return {std::nullopt, std::nullopt, false, draft.words.empty() ? first : draft.words.front()};
+}
+
+/// "is the thermostat at 3": a setting, not a time; who asks after a time says "was".
+std::optional<Question> readNumberSet(Words words) {
+  WordCursor ahead(words);
+  std::string state;
+  if (ahead.takeBack({"degrees"})) {
+    state = " degrees";
+  }
+  if (ahead.rest().size() < 4 || !isOneOf(ahead.front(), {"is", "are"}) || !wholeNumber(ahead.back())) {
+    return std::nullopt;
+  }
+  state.insert(0, ahead.back());
+  ahead.dropBack();
+  QuestionDraft draft{ahead};
+  draft.words.drop();
+  if (!draft.words.takeBack({"at", "on"})) {
+    return std::nullopt;
+  }
+  draft.words.takeBack({"set", "turned", "switched"});
+  draft.question.state = state;
+  return draft.finish(QuestionKind::kIsState) ? std::optional(std::move(draft.question)) : std::nullopt;
 }
 
 }  // namespace
 
 ParsedQuestion parseQuestion(const std::vector<std::string>& words) {
+  if (auto question = readNumberSet(words)) {
+    return {std::move(question), std::nullopt, false, {}};
+  }
   TimeReading reading = readTime(words);
   ParsedQuestion parsed = readQuestion(reading.rest);
   if (parsed.question) {
+    if (parsed.otherwise) {
+      parsed.otherwise->time = reading.time;
+    }
     parsed.question->time = std::move(reading.time);
   }
   return parsed;

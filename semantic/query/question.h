@@ -43,18 +43,25 @@ struct ThingPhrase {
   std::optional<Ordinal> ordinal;
   std::optional<bool> open;             ///< "the open doors"
   bool nearest = false;                 ///< to `nearest_to`, or to the robot
+  bool furniture = false;               ///< "furniture": no small objects
+  bool every = false;                   ///< "every cup": what is asked of it has to hold for each
+  bool either = false;                  ///< joined to `others` by "or": one of them will do
   std::vector<ThingPhrase> nearest_to;  ///< none or one
   std::vector<ThingPhrase> whole;       ///< none or one: that it is a part of, or belongs to
   std::vector<PlacePhrase> places;
   std::vector<ThingPhrase> others;  ///< "the cup and the bowl": what comes after the first "and"
   std::string said;                 ///< its words as they were written, for answers
 
-  [[nodiscard]] bool empty() const { return words.empty() && whole.empty() && places.empty() && !nearest && !ordinal && !open; }
+  [[nodiscard]] bool empty() const {
+    return words.empty() && whole.empty() && places.empty() && !nearest && !ordinal && !open && !furniture;
+  }
 };
 
 struct PlacePhrase {
   PlaceRelation relation = PlaceRelation::kIn;
   ThingPhrase thing;
+  bool negated = false;            ///< "not in the kitchen"
+  std::vector<PlacePhrase> or_at;  ///< "on the sofa or on the table": one of them will do
 };
 
 enum class QuestionKind {
@@ -88,20 +95,22 @@ struct Question {
   std::optional<TimePhrase> time;
   std::string state;     ///< of kIsState and kWhichState: "open", "closed", "on", or the name of a setting; of kLastChange: what it led
                          ///< to, "open" or "closed"; empty: anything
-  bool any = false;      ///< of kIsState: one that is so will do ("is any door open")
-  bool all = false;      ///< of kIsState: each has to be so ("are the doors closed")
+  bool any = false;      ///< of kIsState: one that is so will do ("is any door open"); of kChanges: it was asked whether
+  bool all = false;      ///< of kIsState: each has to be so ("are the doors closed"); of kIsThere: all that are called so are there
   std::string property;  ///< of kProperty: its name
   std::vector<std::string> use;  ///< of kWhatFor
 };
 
 struct ParsedQuestion {
   std::optional<Question> question;
-  bool is_statement = false;   ///< "the cup is on the table": `question` asks whether it is so
+  std::optional<Question>
+      otherwise;              ///< what it means where the home has no answer to `question`: "what is X on" may ask for a setting or a place
+  bool is_statement = false;  ///< "the cup is on the table": `question` asks whether it is so
   std::string not_understood;  ///< the word at which it ended, where there is no question
 };
 
-/// Controlled English: a kind of question, a thing with attributes, places, a time. Articles, case and punctuation do not matter.
-/// `words`: of the sentence, with names of several words joined into one.
+/// Controlled English: a kind of question, a thing with attributes, places, a time. Articles and case do not matter.
+/// `words`: of the sentence, spoken out (spoken.h), with names of several words joined into one.
 [[nodiscard]] ParsedQuestion parseQuestion(const std::vector<std::string>& words);
 
 }  // namespace oikos::semantic

@@ -13,17 +13,71 @@ bool readNews(QuestionDraft& draft) {
   return true;
 }
 
+/// "I cannot find X", "I am looking for X".
+bool takeSearch(WordCursor& words) {
+  WordCursor ahead = words;
+  const bool of_speaker = ahead.take({"i", "we"});
+  if (of_speaker) {
+    ahead.take({"have", "am", "are", "still"});
+  }
+  const bool searches = ahead.takeAll({"looking", "for"}) || ahead.takeAll({"searching", "for"}) || ahead.takeAll({"look", "for"}) ||
+                        ahead.takeAll({"search", "for"});
+  const bool lost =
+      of_speaker && (ahead.takeAll({"cant", "find"}) || ahead.takeAll({"cannot", "find"}) || ahead.takeAll({"can", "not", "find"}) ||
+                     ahead.takeAll({"can", "not", "see"}) || ahead.takeAll({"cant", "see"}) || ahead.take({"lost", "misplaced"}));
+  words = searches || lost ? ahead : words;
+  return searches || lost;
+}
+
+bool takeWish(WordCursor& words) {
+  return words.takeAll({"i", "need"}) || words.takeAll({"i", "want"}) || words.takeAll({"i", "would", "like"}) ||
+         words.takeAll({"i", "would", "love"}) || words.takeAll({"can", "i", "have"}) || words.takeAll({"could", "i", "have"}) ||
+         words.takeAll({"may", "i", "have"}) || words.takeAll({"we", "need"});
+}
+
+/// "list the contents of X", "name the things on Y".
+bool readList(QuestionDraft& draft) {
+  WordCursor ahead = draft.words;
+  if (ahead.take({"everything", "all"})) {
+    return draft.finish(QuestionKind::kWhere);
+  }
+  const bool bare = ahead.startsWith({"contents"}) || ahead.startsWith({"the", "contents"});
+  if (!bare && !ahead.take({"list", "name", "enumerate"}) && !ahead.takeAll({"read", "out"}) &&
+      !ahead.takeAll({"give", "me", "a", "list", "of"})) {
+    return false;
+  }
+  ahead.take({"me"});
+  if (ahead.take({"what"})) {
+    draft.words = ahead;
+    return readWhat(draft);
+  }
+  ahead.take({"all"});
+  ahead.take({"the"});
+  if (ahead.takeAll({"contents", "of"}) && !ahead.empty()) {
+    draft.question.kind = QuestionKind::kContents;
+    addPlaces(draft.question.thing, {having(readThingPhrase(ahead.rest()))});
+    return true;
+  }
+  draft.words = ahead;
+  return draft.finish(QuestionKind::kWhere);
+}
+
 }  // namespace
 
 bool readCommand(QuestionDraft& draft) {
   WordCursor& words = draft.words;
-  if (words.take({"bring", "fetch", "get", "give", "hand", "carry", "deliver", "grab"})) {
+  if (readList(draft)) {
+    return true;
+  }
+  if (words.take({"bring", "fetch", "get", "give", "hand", "carry", "deliver", "grab", "pass"})) {
     words.take({"me", "us", "him", "her"});
     words.takeBack({"me", "us"}) && words.takeBack({"to", "for"});
     return draft.finish(QuestionKind::kFetch);
   }
-  if (words.takeAll({"i", "need"}) || words.takeAll({"i", "want"}) || words.takeAll({"i", "would", "like"}) ||
-      words.takeAll({"id", "like"}) || words.takeAll({"can", "i", "have"}) || words.takeAll({"could", "i", "have"})) {
+  if (takeSearch(words)) {
+    return draft.finish(QuestionKind::kWhere);
+  }
+  if (takeWish(words)) {
     return draft.finish(QuestionKind::kFetch);
   }
   if (words.takeAll({"history", "of"}) || words.takeAll({"the", "history", "of"}) ||
@@ -33,11 +87,7 @@ bool readCommand(QuestionDraft& draft) {
   if (words.takeAll({"show", "me", "where"}) || words.takeAll({"show", "where"})) {
     return readWhere(draft);
   }
-  if (words.takeAll({"show", "me"}) || words.takeAll({"look", "for"}) || words.takeAll({"search", "for"}) ||
-      words.takeAll({"im", "looking", "for"}) || words.takeAll({"i", "am", "looking", "for"}) || words.takeAll({"looking", "for"}) ||
-      words.takeAll({"i", "cant", "find"}) || words.takeAll({"i", "cannot", "find"}) || words.takeAll({"i", "lost"}) ||
-      words.takeAll({"ive", "lost"}) || words.takeAll({"i", "have", "lost"}) || words.takeAll({"i", "misplaced"}) ||
-      words.takeAll({"help", "me", "find"}) || words.take({"find", "locate", "show", "list", "seen"})) {
+  if (words.takeAll({"show", "me"}) || words.take({"find", "locate", "show", "seen"})) {
     words.takeAll({"all", "of"}) || words.take({"all"});
     return draft.finish(QuestionKind::kWhere);
   }

@@ -13,6 +13,15 @@ namespace oikos::semantic {
 /// After "in which": "room is X".
 [[nodiscard]] bool readWhichPlace(QuestionDraft& draft);
 
+/// "the location of X", "the last time you saw X", "the best way to open X".
+[[nodiscard]] bool readNamed(QuestionDraft& draft);
+
+/// After "by how much", "how far": "is X open".
+[[nodiscard]] bool readHowFar(QuestionDraft& draft);
+/// After "how do": "I open X", "I pick up X".
+[[nodiscard]] bool readHowTo(QuestionDraft& draft);
+/// What is wanted of a place to stand: "to reach X", "so that the camera sees X", "if I want to open X".
+[[nodiscard]] bool readStandGoal(QuestionDraft& draft);
 /// After "how".
 [[nodiscard]] bool readHow(QuestionDraft& draft);
 /// After "when".

@@ -67,36 +67,73 @@ bool readUses(QuestionDraft& draft) {
   return true;
 }
 
-/// "is X set to", "is X at", "temperature is X set to", "is the temperature of X".
-bool readSettings(QuestionDraft& draft) {
-  WordCursor& words = draft.words;
-  if (words.rest().size() < 3) {
+bool isSettingNoun(std::string_view word) {
+  return isOneOf(word, {"program", "programme", "temperature", "setting", "level", "mode", "number", "heat", "stage", "degree", "mark",
+                        "state", "position", "speed"});
+}
+
+bool isSetVerb(std::string_view word) {
+  return isOneOf(word, {"set", "turned", "switched", "selected", "chosen", "running", "active", "put", "dialled"});
+}
+
+/// "is the setting of X".
+bool readSettingOf(QuestionDraft& draft) {
+  WordCursor ahead = draft.words;
+  if (!ahead.takeBe() || !ahead.take({"the"}) || !ahead.takeIf(isSettingNoun) || !ahead.take({"of", "in", "on"}) || ahead.empty()) {
     return false;
   }
-  const Words rest = words.rest();
-  const bool set_to = isOneOf(rest.back(), {"to", "at", "on"}) && isOneOf(rest[rest.size() - 2], {"set", "turned", "switched"});
-  const bool is_at = isBe(rest.front()) && rest.back() == "at";
-  const std::size_t be = words.find({"is", "are", "was", "were"});
-  const bool named = be == 1 && isOneOf(rest.front(), {"program", "programme", "temperature", "setting", "level", "mode"});
-  if (set_to || is_at || (named && isOneOf(rest.back(), {"on", "at", "in", "to", "set"}))) {
-    words.drop(std::min(be + 1, rest.size()));
-    while (words.takeBack({"to", "at", "set", "turned", "switched", "on", "in"})) {
-    }
-    return draft.finish(QuestionKind::kSetting);
+  draft.words = ahead;
+  return draft.finish(QuestionKind::kSetting);
+}
+
+/// "temperature is X set to", "programme is selected on X", "number is X on".
+bool readNamedSetting(QuestionDraft& draft) {
+  WordCursor ahead = draft.words;
+  if (!ahead.takeIf(isSettingNoun) || !(ahead.takeBe() || ahead.take({"does", "has", "did"}))) {
+    return false;
   }
-  if (isBe(rest.front()) && rest[1] == "the" && isOneOf(rest[2], {"setting", "temperature", "program", "state", "level", "position"}) &&
-      rest.size() > 4 && isOneOf(rest[3], {"of", "in"})) {
-    words.drop(4);
-    return draft.finish(QuestionKind::kSetting);
+  const bool verb_first = ahead.takeIf(isSetVerb) && ahead.take({"on", "for", "at", "in"});
+  bool names_setting = verb_first;
+  while (ahead.rest().size() > 1 &&
+         (ahead.takeBack({"to", "at", "on", "in", "have"}) || (isSetVerb(ahead.back()) && (ahead.dropBack(), true)))) {
+    names_setting = true;
   }
-  return false;
+  if (!names_setting || ahead.empty()) {
+    return false;
+  }
+  draft.words = ahead;
+  return draft.finish(QuestionKind::kSetting);
+}
+
+/// "is X set to", "is X at", "is X on": the last may ask for a place as well.
+bool readSettings(QuestionDraft& draft) {
+  if (readSettingOf(draft) || readNamedSetting(draft)) {
+    return true;
+  }
+  WordCursor ahead = draft.words;
+  if (ahead.rest().size() < 3 || !ahead.takeBe()) {
+    return false;
+  }
+  const bool is_at = ahead.takeBack({"at"});
+  const bool is_to = !is_at && ahead.takeBack({"to"});
+  const bool is_on = !is_at && !is_to && ahead.takeBack({"on"});
+  const bool is_set = ahead.rest().size() > 1 && isSetVerb(ahead.back()) && (ahead.dropBack(), true);
+  if (!is_at && !is_on && !(is_to && is_set)) {
+    return false;
+  }
+  draft.words = ahead;
+  if (!is_set && is_on) {
+    (void)draft.finish(QuestionKind::kWhere);
+    draft.otherwise = draft.question;
+  }
+  return draft.finish(QuestionKind::kSetting);
 }
 
 /// "colour is X", "is the colour of X".
 bool readProperty(QuestionDraft& draft) {
   const auto property = [](const std::string& word) -> std::string {
     return isOneOf(word, {"colour", "color", "colors", "colours"})   ? "color"
-           : isOneOf(word, {"content", "contents"})                  ? "content"
+           : word == "content"                                       ? "content"
            : isOneOf(word, {"type", "kind", "size", "owner"})        ? word
            : isOneOf(word, {"material", "brand", "weight", "shape"}) ? word
                                                                      : "";
@@ -115,10 +152,37 @@ bool readProperty(QuestionDraft& draft) {
   return false;
 }
 
-bool finishContents(QuestionDraft& draft, const ThingPhrase& thing, const std::vector<PlacePhrase>& places) {
+/// "the contents of X": of what it has as a content, else of what is in it.
+bool readContentsOf(QuestionDraft& draft) {
+  WordCursor ahead = draft.words;
+  ahead.takeBe();
+  ahead.take({"the"});
+  if (!ahead.takeAll({"contents", "of"}) || ahead.empty()) {
+    return false;
+  }
   draft.question.kind = QuestionKind::kContents;
-  draft.question.thing = thing;
-  draft.question.thing.places.insert(draft.question.thing.places.end(), places.begin(), places.end());
+  draft.question.thing = ThingPhrase{};
+  addPlaces(draft.question.thing, {having(readThingPhrase(ahead.rest()))});
+  draft.otherwise = draft.question;
+  draft.words = ahead;
+  draft.question.property = "content";
+  return draft.finish(QuestionKind::kProperty);
+}
+
+/// "X does Y hold", "X has Y got", "do we have": what Y has. `noun`: X.
+bool readHeld(QuestionDraft& draft, Words noun) {
+  WordCursor ahead = draft.words;
+  const bool has = ahead.take({"has", "have"});
+  if ((!has && !ahead.take({"does", "do", "did"})) || ahead.empty() || isSpeaker(ahead.front()) || ahead.front() == "you") {
+    return false;
+  }
+  ahead.takeAllBack({"in", "it"}) || ahead.takeAllBack({"on", "it"});
+  if (!ahead.takeBack({"contain", "hold", "have", "got", "carry", "store"}) || ahead.empty()) {
+    return false;
+  }
+  draft.question.kind = QuestionKind::kContents;
+  draft.question.thing = readThingPhrase(noun);
+  addPlaces(draft.question.thing, {having(readThingPhrase(ahead.rest()))});
   return true;
 }
 
@@ -126,8 +190,9 @@ bool finishContents(QuestionDraft& draft, const ThingPhrase& thing, const std::v
 bool skipHelpers(WordCursor& words) {
   if (words.takeModal() || words.take({"have"})) {
     words.takeSpeaker();
-    words.take({"have", "see", "got", "find", "keep", "own"});
+    words.take({"have", "see", "got", "find", "keep", "own", "left", "put"});
     words.take({"got"});
+    words.take({"been"});
   } else {
     words.drop();
   }
@@ -136,59 +201,59 @@ bool skipHelpers(WordCursor& words) {
 }
 
 /// "is on Y", "X are on Y", "X are open", "cup is nearest to Y", "room is X in", "is X".
-bool readContents(QuestionDraft& draft) {
+bool readPredicate(QuestionDraft& draft) {
   WordCursor& words = draft.words;
-  const std::size_t verb =
-      words.find({"is", "are", "was", "were", "lies", "stands", "lie", "stand", "sits", "sit", "do", "did", "have", "can"});
+  words.take({"of"});
+  const std::size_t verb = words.find({"is",    "are",  "was", "were", "lies", "stands", "lie", "stand", "sits",  "sit",
+                                       "hangs", "hang", "do",  "does", "did",  "have",   "has", "can",   "holds", "contains"});
   if (verb == words.rest().size()) {
     return false;
   }
   const Words noun = words.rest().first(verb);
   words.drop(verb);
-  if (!skipHelpers(words)) {
-    return false;
+  if (readHeld(draft, noun)) {
+    return true;
   }
-  const bool ends_with_place = words.rest().size() > 1 && isOneOf(words.back(), {"in", "on", "under", "at", "inside"});
-  if (ends_with_place) {  // "which room is the cup in"
-    words.dropBack();
+  if (verb > 0 && words.take({"has", "holds", "contains"})) {  // "which drawer holds the spoons"
+    words.take({"got"});
     return draft.finish(QuestionKind::kWhere);
   }
-  if (words.rest().size() == 1 && isStateWord(words.front())) {
-    draft.question.kind = QuestionKind::kWhichState;
-    draft.question.state = stateNamed(words.front());
+  if (!skipHelpers(words)) {  // "what rooms do we have"
+    draft.question.kind = QuestionKind::kWhere;
     draft.question.thing = readThingPhrase(noun);
     return true;
   }
-  const bool says_place =
-      findRelationWords(words.rest()).has_value() || isOneOf(words.front(), {"lying", "standing", "kept", "stored", "sitting"});
-  draft.edited.assign(noun.begin(), noun.end());
-  draft.edited.insert(draft.edited.end(), words.rest().begin(), words.rest().end());
-  words = WordCursor(draft.edited);
-  return draft.finish(says_place ? QuestionKind::kContents : QuestionKind::kWhere);
+  const bool ends_with_place = words.rest().size() > 1 && words.takeBack({"in", "on", "under", "at", "inside"});
+  if (ends_with_place) {  // "which room is the cup in"
+    return draft.finish(QuestionKind::kWhere);
+  }
+  return draft.finishPredicate(readThingPhrase(noun), words);
+}
+
+/// "is the location of X", "spot do I drive to": what has a name of its own.
+bool readNamedThing(QuestionDraft& draft) {
+  const WordCursor before = draft.words;
+  draft.words.takeBe();
+  if (readNamed(draft)) {
+    return true;
+  }
+  draft.words = before;
+  return false;
 }
 
 }  // namespace
 
 bool readWhat(QuestionDraft& draft) {
   WordCursor& words = draft.words;
-  words.take({"else", "exactly"});
-  if (readChanges(draft) || readUses(draft) || readSettings(draft)) {
+  words.take({"else", "exactly", "all"});
+  if (readNamedThing(draft) || readContentsOf(draft) || readChanges(draft) || readUses(draft) || readSettings(draft)) {
     return true;
   }
   if (words.takeAll({"is", "the", "history", "of"}) || words.takeAll({"history", "does"})) {
     words.takeBack({"have"});
     return draft.finish(QuestionKind::kHistory);
   }
-  if (readProperty(draft)) {
-    return true;
-  }
-  if (const bool does = words.startsWith({"does"}) || words.startsWith({"did"});
-      does && (words.rest().back() == "contain" || words.rest().back() == "hold" || words.rest().back() == "have")) {
-    words.drop();
-    words.dropBack();
-    return finishContents(draft, {}, {{PlaceRelation::kIn, readThingPhrase(words.rest())}});
-  }
-  return readContents(draft);
+  return readProperty(draft) || readPredicate(draft);
 }
 
 }  // namespace oikos::semantic

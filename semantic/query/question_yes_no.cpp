@@ -1,51 +1,116 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "semantic/query/question_kinds.h"
-
 #include <algorithm>
 #include <string>
 
+#include "semantic/query/question_kinds.h"
 #include "semantic/query/thing_phrase.h"
 
 namespace oikos::semantic {
 
 namespace {
 
-/// After "did I": "leave X on", "close X", "turn off X".
+/// finish() of a question whether the thing is in `state`.
+bool finishState(QuestionDraft& draft, std::string state) {
+  draft.question.state = std::move(state);
+  draft.question.any = draft.question.any || saysAny(draft.words.rest());
+  if (!draft.finish(QuestionKind::kIsState)) {
+    return false;
+  }
+  const ThingPhrase& thing = draft.question.thing;
+  draft.question.all = draft.question.all || thing.every;
+  return !thing.empty() || thing.every || draft.question.any;  // "is it open": what?
+}
+
+/// After "did I": "leave X on", "close X", "turn off X"; after "has anyone" the same.
 bool readLeft(QuestionDraft& draft) {
   WordCursor& words = draft.words;
-  draft.question.kind = QuestionKind::kIsState;
   if (words.take({"close", "shut"})) {
-    draft.question.state = "closed";
-  } else if (words.take({"open"})) {
-    draft.question.state = "open";
-  } else if (words.take({"turn", "switch", "turned", "switched"})) {
-    const bool off = words.takeBack({"off"}) || words.take({"off"});
-    draft.question.state = off ? "off" : "on";
-    words.takeBack({"on"}) || words.take({"on"});
-  } else if (words.take({"leave", "left"}) && words.rest().size() > 1 && isStateWord(words.back())) {
-    draft.question.state = stateNamed(words.back());
-    words.dropBack();
-  } else {
-    return !words.empty() && draft.finish(QuestionKind::kIsThere);
+    return finishState(draft, "closed");
   }
-  return draft.finish(QuestionKind::kIsState);
+  if (words.take({"open"})) {
+    return finishState(draft, "open");
+  }
+  if (words.take({"turn", "switch", "turned", "switched"})) {
+    const bool off = words.takeBack({"off"}) || words.take({"off"});
+    words.takeBack({"on"}) || words.take({"on"});
+    return finishState(draft, off ? "off" : "on");
+  }
+  WordCursor ahead = words;
+  if (!ahead.take({"leave", "left"})) {
+    return false;
+  }
+  std::string state = takeStateBack(ahead);
+  if (state.empty() && !ahead.empty() && isStateWord(ahead.front())) {  // "left open the door"
+    state = stateNamed(ahead.front());
+    ahead.drop();
+  }
+  words = state.empty() ? words : ahead;
+  return !state.empty() && finishState(draft, state);
+}
+
+/// "open or closed": which of both, so no yes or no.
+bool readEitherState(QuestionDraft& draft) {
+  WordCursor ahead = draft.words;
+  const std::string second = takeStateBack(ahead);
+  if (second.empty() || !ahead.takeBack({"or"})) {
+    return false;
+  }
+  const std::string first = takeStateBack(ahead);
+  if (first.empty() || ahead.empty()) {
+    return false;
+  }
+  draft.words = ahead;
+  return draft.finish(first == "open" || first == "closed" ? QuestionKind::kHowFar : QuestionKind::kSetting);
+}
+
+/// "there an open door in the hall" asks for its state, as "an open door" does.
+bool finishIsThere(QuestionDraft& draft) {
+  draft.question.all = false;
+  draft.words.take({"no"});  // "are there no cups" asks whether there are
+  if (!draft.finish(QuestionKind::kIsThere)) {
+    return false;
+  }
+  ThingPhrase& thing = draft.question.thing;
+  if (thing.open && thing.others.empty()) {
+    draft.question.kind = QuestionKind::kIsState;
+    draft.question.state = *thing.open ? "open" : "closed";
+    draft.question.any = true;
+    thing.open.reset();
+  }
+  return true;
+}
+
+/// "the cups in the kitchen": all of them? "every", "and" before a further place ask more than whether something is there.
+bool finishIsAt(QuestionDraft& draft) {
+  const bool definite =
+      !draft.words.empty() && isOneOf(draft.words.front(), {"the", "my", "our", "your", "his", "her", "their", "these", "those"});
+  if (!draft.finish(QuestionKind::kIsThere)) {
+    return false;
+  }
+  const ThingPhrase& thing = draft.question.thing;
+  draft.question.all = thing.every || (definite && draft.question.all);
+  return std::none_of(thing.places.begin(), thing.places.end(), [](const PlacePhrase& place) {
+    const auto& others = place.thing.others;
+    return place.thing.every || std::any_of(others.begin(), others.end(), [](const ThingPhrase& other) { return !other.places.empty(); });
+  });
 }
 
 /// After "is".
 bool readIs(QuestionDraft& draft) {
   WordCursor& words = draft.words;
   if (words.take({"there"})) {
-    return draft.finish(QuestionKind::kIsThere);
+    return finishIsThere(draft);
   }
-  while (words.takeBack({"still", "already", "yet", "properly", "fully"})) {
+  if (readEitherState(draft)) {
+    return true;
+  }
+  (void)takeAdverbsBack(words);
+  WordCursor before_state = words;
+  if (std::string state = takeStateBack(before_state); !state.empty() && !before_state.empty()) {
+    words = before_state;
+    return finishState(draft, std::move(state));
   }
   const Words rest = words.rest();
-  if (rest.size() > 1 && isStateWord(rest.back())) {
-    draft.question.state = stateNamed(rest.back());
-    words.dropBack();
-    words.takeBack({"turned", "switched", "still", "wide", "already", "left", "standing"});
-    return draft.finish(QuestionKind::kIsState);
-  }
   const std::size_t set = words.find({"set", "turned", "switched"});
   if (set > 0 && set + 2 < rest.size() && isOneOf(rest[set + 1], {"to", "at", "on"})) {
     for (const std::string& word : rest.subspan(set + 2)) {
@@ -54,54 +119,92 @@ bool readIs(QuestionDraft& draft) {
     words = WordCursor(rest.first(set));
     return draft.finish(QuestionKind::kIsState);
   }
-  return draft.finish(QuestionKind::kIsThere);
+  return finishIsAt(draft);
 }
 
-/// "is anything open".
-bool askWhetherAny(QuestionDraft& draft) {
-  draft.question.kind = QuestionKind::kIsThere;
-  draft.question.thing.open = draft.question.state == "open";
-  return draft.question.state == "open" || draft.question.state == "closed";
-}
-
-/// "have you", "did anyone".
-bool takeSomeoneActing(WordCursor& words) {
-  if (words.startsWith({"have", "you"}) || words.startsWith({"did", "you"}) || words.startsWith({"can", "you"}) ||
-      words.startsWith({"do", "you"}) || words.startsWith({"has", "anyone"}) || words.startsWith({"did", "anyone"}) ||
-      words.startsWith({"has", "anybody"}) || words.startsWith({"has", "someone"}) || words.startsWith({"did", "someone"})) {
-    words.drop(2);
-    return true;
+/// "anything changed", "something been moved": whether, and what.
+bool readAnyChange(QuestionDraft& draft) {
+  WordCursor ahead = draft.words;
+  if (!ahead.take({"anything", "something", "things", "everything"})) {
+    return false;
   }
-  return false;
+  (void)takeAdverbs(ahead);
+  ahead.take({"been"});
+  const std::size_t verb = ahead.find({"change", "changed", "move", "moved", "happened", "happen", "new", "different"});
+  if (verb != 0) {
+    return false;
+  }
+  ahead.drop();
+  draft.words = ahead;
+  draft.question.kind = QuestionKind::kChanges;
+  draft.question.any = true;
+  draft.question.thing = readThingPhrase(ahead.rest());
+  return true;
 }
 
-/// After "have you": "moved X", "seen X".
-bool readSomeoneActing(QuestionDraft& draft) {
+/// After "have you": "moved X", "seen X", "left X open", "got X".
+bool readActing(QuestionDraft& draft, bool of_speaker) {
   WordCursor& words = draft.words;
+  (void)takeAdverbs(words);
+  words.take({"ever", "last"});
   const std::string verb = words.empty() ? "" : words.front();
-  if (words.take({"move", "moved", "change", "changed", "touch", "touched", "open", "opened", "close", "closed", "use", "used"})) {
+  const bool changes = isOneOf(verb, {"move", "moved", "change", "changed", "touch", "touched", "opened", "closed", "use", "used"}) ||
+                       (!of_speaker && isOneOf(verb, {"open", "close"}));
+  if (changes) {
+    words.drop();
     return draft.finishChange(verb);
   }
-  words.take({"ever", "last"});
-  return words.takeIf(isSeeing) && draft.finish(QuestionKind::kWhere);
+  if (words.take({"have", "got", "own", "keep"})) {
+    words.take({"got"});
+    return draft.finish(QuestionKind::kIsThere);
+  }
+  if (words.takeIf(isSeeing)) {
+    return draft.finish(QuestionKind::kWhere);
+  }
+  return readLeft(draft) || (of_speaker && words.take({"put", "place", "placed", "leave", "left", "store", "stored"}) && finishIsAt(draft));
 }
 
-/// After "has" or "does": "X moved", "X contain Y".
+/// "have you", "did anyone", "do we". The speaker's own "have" and "do" say what there is: "have we milk".
+bool takeActor(WordCursor& words, bool& of_speaker) {
+  WordCursor ahead = words;
+  if ((words.startsWith({"can"}) || words.startsWith({"could"})) && words.rest().size() > 2 && !isSeeing(words.rest()[2])) {
+    return false;
+  }
+  if (!ahead.take({"have", "has", "did", "do", "does", "can", "could"}) || ahead.empty() ||
+      !isOneOf(ahead.front(), {"i", "we", "you", "anyone", "anybody", "someone", "somebody"})) {
+    return false;
+  }
+  of_speaker = isOneOf(ahead.front(), {"i", "we"});
+  ahead.drop();
+  words = ahead;
+  return true;
+}
+
+/// After "has" or "does": "X moved", "X been left open", "X contain Y", "X got Y".
 bool readDoes(QuestionDraft& draft) {
   WordCursor& words = draft.words;
+  if (readAnyChange(draft)) {
+    return true;
+  }
   const std::string last = words.empty() ? "" : words.back();
   if (words.takeBack({"move", "moved", "change", "changed", "opened", "closed", "touched", "used"})) {
     words.takeBack({"been"});
     return draft.finishChange(last);
   }
-  const std::size_t verb = words.find({"contain", "have", "hold"});
+  WordCursor before_state = words;
+  if (std::string state = takeStateBack(before_state); !state.empty() && !before_state.empty()) {  // "the fridge been left open"
+    words = before_state;
+    return finishState(draft, std::move(state));
+  }
+  const std::size_t verb = words.find({"contain", "have", "hold", "got"});
   if (verb == 0 || verb + 1 >= words.rest().size()) {
     return false;
   }
   draft.question.kind = QuestionKind::kIsThere;
   draft.question.thing = readThingPhrase(words.rest().subspan(verb + 1));
-  draft.question.thing.places.push_back({PlaceRelation::kIn, readThingPhrase(words.rest().first(verb))});
-  return true;
+  const ThingPhrase whole = readThingPhrase(words.rest().first(verb));
+  addPlaces(draft.question.thing, {having(whole)});
+  return !whole.every;
 }
 
 }  // namespace
@@ -111,37 +214,35 @@ bool readYesNo(QuestionDraft& draft) {
   if (!words.empty() && isBe(words.front())) {
     draft.question.all = isOneOf(words.front(), {"are", "were"});
     words.drop();
-    draft.question.any = !words.empty() && isOneOf(words.front(), {"any", "anything", "something", "one", "some"});
-    return readIs(draft) && (!draft.question.thing.words.empty() || draft.question.kind != QuestionKind::kIsState || askWhetherAny(draft));
+    return readIs(draft);
   }
-  if (words.takeAll({"do", "we"}) || words.takeAll({"have", "we"}) || words.takeAll({"do", "i"}) || words.takeAll({"have", "i"})) {
-    words.take({"have", "got", "own"});
-    words.take({"got"});
-    return draft.finish(QuestionKind::kIsThere);
+  if (!words.empty() && isOneOf(words.front(), {"any", "anything", "something"})) {
+    return readAnyChange(draft) || finishIsThere(draft);
   }
-  if (takeSomeoneActing(words)) {
-    return readSomeoneActing(draft);
-  }
-  if (words.takeAll({"did", "i"}) || words.takeAll({"did", "we"}) || words.takeAll({"have", "i"})) {
-    return readLeft(draft);
+  bool of_speaker = false;
+  if (takeActor(words, of_speaker)) {
+    return readActing(draft, of_speaker);
   }
   return words.take({"does", "did", "has", "have"}) && readDoes(draft);
 }
 
 bool readSentence(QuestionDraft& draft) {
   WordCursor& words = draft.words;
-  const std::size_t be = words.find({"is", "are"});
+  const std::size_t be = words.find({"is", "are", "was", "were"});
   if (be > 0 && be + 1 < words.rest().size()) {
     draft.is_statement = true;
+    draft.question.all = isOneOf(words.rest()[be], {"are", "were"});
     draft.edited.assign(words.rest().begin(), words.rest().end());
     draft.edited.erase(draft.edited.begin() + static_cast<std::ptrdiff_t>(be));
-    if (draft.edited.size() > 1 && isStateWord(draft.edited.back())) {
+    WordCursor predicate{Words(draft.edited).subspan(be)};
+    const bool there = be == 1 && words.front() == "there";
+    (void)takeAdverbs(predicate);
+    predicate.take({"not"});
+    const bool is_state =
+        !predicate.empty() && (isStateWord(predicate.back()) || isOneOf(predicate.front(), {"left", "turned", "switched"}));
+    if (there || is_state || findRelationWords(predicate.rest())) {
       words = WordCursor(draft.edited);
       return readIs(draft);
-    }
-    if (findRelationWords(Words(draft.edited).subspan(be))) {
-      words = WordCursor(draft.edited);
-      return draft.finish(QuestionKind::kIsThere);
     }
     draft.is_statement = false;
     return false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -44,6 +45,12 @@ void Resolver::keepOpen(const ThingPhrase& phrase, Lookup& lookup) const {
       const auto open = isOpen(index_.thing(match.thing));
       return !open || *open != *phrase.open;
     });
+  }
+}
+
+void Resolver::keepFurniture(const ThingPhrase& phrase, Lookup& lookup) const {
+  if (phrase.furniture) {
+    std::erase_if(lookup.matches, [&](const Match& match) { return index_.thing(match.thing).kind != ThingKind::kLargeObject; });
   }
 }
 
@@ -102,7 +109,12 @@ Resolution Resolver::resolve(const ThingPhrase& phrase) const {
     return resolveFloor(phrase);
   }
   if (phrase.words.empty() && phrase.whole.empty() && !phrase.ordinal) {
-    return contents(phrase);
+    Resolution resolution = contents(phrase);
+    resolveOthers(phrase, resolution);
+    return resolution;
+  }
+  if (const auto whole = withNounOfOthers(phrase)) {
+    return resolve(*whole);
   }
   Resolution resolution;
   Lookup lookup = lookUp(phrase);
@@ -113,17 +125,43 @@ Resolution Resolver::resolve(const ThingPhrase& phrase) const {
     resolution.elsewhere = anywhere - lookup.matches.size();
   }
   keepOpen(phrase, lookup);
+  keepFurniture(phrase, lookup);
   resolution.things = bestOf(lookup);
   if (phrase.nearest) {
     sortByDistance(phrase, resolution);
   }
+  resolveOthers(phrase, resolution);
+  return resolution;
+}
+
+/// "the red and blue cups": red cups. Nothing: the words are a noun of their own.
+std::optional<ThingPhrase> Resolver::withNounOfOthers(const ThingPhrase& phrase) const {
+  if (phrase.others.empty() || phrase.words.empty()) {
+    return std::nullopt;
+  }
+  const ThingPhrase* last = &phrase.others.back();
+  while (!last->others.empty()) {
+    last = &last->others.back();
+  }
+  if (last->words.size() < 2 || index_.words().isNoun(phrase.words.back())) {
+    return std::nullopt;
+  }
+  ThingPhrase whole = phrase;
+  whole.words.push_back(last->words.back());
+  return index_.find(whole.words).matches.empty() ? std::nullopt : std::optional(std::move(whole));
+}
+
+/// "the cup and the bowl".
+void Resolver::resolveOthers(const ThingPhrase& phrase, Resolution& resolution) const {
   for (const ThingPhrase& other : phrase.others) {
     const Resolution more = resolve(other);
-    resolution.things.insert(resolution.things.end(), more.things.begin(), more.things.end());
+    std::copy_if(more.things.begin(), more.things.end(), std::back_inserter(resolution.things), [&](const Thing* thing) {
+      return std::find(resolution.things.begin(), resolution.things.end(), thing) == resolution.things.end();
+    });
+    resolution.elsewhere += more.elsewhere;
     noteWords(more, resolution);
     resolution.known = resolution.unknown.empty();
   }
-  return resolution;
 }
 
 }  // namespace oikos::semantic

@@ -47,6 +47,12 @@ class Resolver {
   void filterByPlaces(const ThingPhrase& phrase, Lookup& lookup, Resolution& resolution) const;
   void filterByPlace(const PlacePhrase& place, Lookup& lookup, Resolution& resolution) const;
   [[nodiscard]] bool filterByRoom(const PlacePhrase& place, Lookup& lookup, Resolution& resolution) const;
+  struct PlaceMeant {
+    const PlacePhrase* phrase = nullptr;
+    Resolution places;
+  };
+  [[nodiscard]] std::vector<PlaceMeant> resolveEach(const PlacePhrase& place, Resolution& resolution) const;
+  void dropPartsOfMatches(Lookup& lookup) const;
   void keepNextTo(const Thing& place, Lookup& lookup) const;
   /// "from the dishwasher", in a question about the past.
   [[nodiscard]] bool isOfNow(const PlacePhrase& place) const;
@@ -54,9 +60,13 @@ class Resolver {
   [[nodiscard]] Lookup carriedBy(const Things& places) const;
   [[nodiscard]] Lookup everything() const;
   // resolver.cpp
+  [[nodiscard]] std::optional<ThingPhrase> withNounOfOthers(const ThingPhrase& phrase) const;
+  void resolveOthers(const ThingPhrase& phrase, Resolution& resolution) const;
   [[nodiscard]] Resolution resolveFloor(const ThingPhrase& phrase) const;
   /// Where the phrase says "open" or "closed".
   void keepOpen(const ThingPhrase& phrase, Lookup& lookup) const;
+  /// Where the phrase says "furniture".
+  void keepFurniture(const ThingPhrase& phrase, Lookup& lookup) const;
   void sortByDistance(const ThingPhrase& phrase, Resolution& resolution) const;
   /// What the thing shall be nearest to; it is not among the things any more.
   [[nodiscard]] Things takeNearestTo(const ThingPhrase& phrase, Resolution& resolution) const;

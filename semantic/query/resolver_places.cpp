@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies in the places that a phrase names.
 #include <algorithm>
+#include <set>
 
 #include "semantic/query/resolver.h"
 #include "semantic/query/sides.h"
@@ -12,8 +13,9 @@ namespace {
 
 /// "in the house" is no place: everything is.
 bool isHome(const ThingPhrase& phrase) {
-  return phrase.words.size() == 1 && (phrase.words[0] == "house" || phrase.words[0] == "home" || phrase.words[0] == "apartment" ||
-                                      phrase.words[0] == "flat" || phrase.words[0] == "place");
+  return phrase.words.size() == 1 && phrase.places.empty() &&
+         (phrase.words[0] == "house" || phrase.words[0] == "home" || phrase.words[0] == "apartment" || phrase.words[0] == "flat" ||
+          phrase.words[0] == "place");
 }
 
 bool onlyRooms(const Things& things) {
@@ -36,36 +38,70 @@ bool Resolver::isOfNow(const PlacePhrase& place) const {
 }
 
 Resolution Resolver::resolvePlace(const PlacePhrase& place) const {
-  return isOfNow(place) ? Resolver(present_, present_, robot_map_).resolvePlace({PlaceRelation::kIn, place.thing}) : resolve(place.thing);
+  return isOfNow(place) ? Resolver(present_, present_, robot_map_).resolvePlace({PlaceRelation::kIn, place.thing, false, {}})
+                        : resolve(place.thing);
 }
 
 void Resolver::filterByPlace(const PlacePhrase& place, Lookup& lookup, Resolution& resolution) const {
   if (isHome(place.thing) && index_.find(place.thing.words).matches.empty()) {
+    if (place.negated) {
+      lookup.matches.clear();
+    }
     return;
   }
   if (filterByRoom(place, lookup, resolution)) {
     return;
   }
-  const Resolution places = resolvePlace(place);
-  noteWords(places, resolution);
-  if (places.things.empty() && resolution.missing_place.empty()) {
-    resolution.missing_place = place.thing.said;
+  const std::vector<PlaceMeant> places = resolveEach(place, resolution);
+  const auto is_there = [&](const Thing& thing) {
+    return std::any_of(places.begin(), places.end(), [&](const PlaceMeant& p) {
+      const Thing* seen = isOfNow(*p.phrase) ? present_.findById(thing.id()) : &thing;
+      return seen != nullptr && isAt(*seen, p.phrase->relation, p.places);
+    });
+  };
+  std::erase_if(lookup.matches, [&](const Match& match) { return is_there(index_.thing(match.thing)) == place.negated; });
+  const bool beside = place.relation > PlaceRelation::kFrom && !place.negated;
+  if (beside) {
+    dropPartsOfMatches(lookup);
   }
-  const bool of_now = isOfNow(place);
+  const Things& next_to = places.front().places.things;
+  if (beside && lookup.matches.size() > 1 && !next_to.empty() && place.relation != PlaceRelation::kNear) {
+    keepNextTo(*next_to.front(), lookup);
+  }
+}
+
+/// The place and those that would do as well, with their unknown words noted.
+std::vector<Resolver::PlaceMeant> Resolver::resolveEach(const PlacePhrase& place, Resolution& resolution) const {
+  std::vector<PlaceMeant> meant{{&place, resolvePlace(place)}};
+  for (const PlacePhrase& other : place.or_at) {
+    meant.push_back({&other, resolvePlace(other)});
+  }
+  for (const PlaceMeant& one : meant) {
+    noteWords(one.places, resolution);
+    if (one.places.things.empty() && resolution.missing_place.empty()) {
+      resolution.missing_place = one.phrase->thing.said;
+    }
+  }
+  return meant;
+}
+
+/// What stands beside something is furniture: "the drawers left of the oven" are no single drawers, if a piece is called so.
+void Resolver::dropPartsOfMatches(Lookup& lookup) const {
+  std::set<const LargeObject*> pieces;
+  for (const Match& match : lookup.matches) {
+    if (const Thing& thing = index_.thing(match.thing); thing.kind == ThingKind::kLargeObject) {
+      pieces.insert(thing.object);
+    }
+  }
   std::erase_if(lookup.matches, [&](const Match& match) {
     const Thing& thing = index_.thing(match.thing);
-    const Thing* seen = of_now ? present_.findById(thing.id()) : &thing;
-    return seen == nullptr || !isAt(*seen, place.relation, places);
+    return (thing.kind == ThingKind::kPart || thing.kind == ThingKind::kKnob) && pieces.contains(thing.object);
   });
-  const bool beside = place.relation > PlaceRelation::kFrom;
-  if (beside && lookup.matches.size() > 1 && !places.things.empty() && place.relation != PlaceRelation::kNear) {
-    keepNextTo(*places.things.front(), lookup);
-  }
 }
 
 /// A room lies nowhere: "the cup in the kitchen on the table" is on the table. false: the place is no room with further places.
 bool Resolver::filterByRoom(const PlacePhrase& place, Lookup& lookup, Resolution& resolution) const {
-  if (place.thing.places.empty()) {
+  if (place.thing.places.empty() || place.negated || !place.or_at.empty()) {
     return false;
   }
   PlacePhrase bare = place;
@@ -131,12 +167,14 @@ Lookup Resolver::everything() const {
 }
 
 Resolution Resolver::contents(const ThingPhrase& phrase) const {
-  const bool narrow = phrase.places.size() == 1 && phrase.places[0].relation <= PlaceRelation::kUnder;
+  const bool plain = phrase.places.size() == 1 && !phrase.places[0].negated && phrase.places[0].or_at.empty();
+  const bool narrow = plain && phrase.places[0].relation <= PlaceRelation::kUnder;
   const Things places = narrow ? resolve(phrase.places[0].thing).things : Things();
   Resolution resolution;
   Lookup all = !places.empty() && !onlyRooms(places) ? carriedBy(places) : everything();
   filterByPlaces(phrase, all, resolution);
   keepOpen(phrase, all);
+  keepFurniture(phrase, all);
   for (const Match& match : all.matches) {
     resolution.things.push_back(&index_.thing(match.thing));
   }

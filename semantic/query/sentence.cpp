@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semantic/query/sentence.h"
 
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "semantic/model/pose.h"
 #include "semantic/query/found_thing.h"
+#include "semantic/query/words.h"
 
 namespace oikos::semantic {
 
@@ -36,6 +39,14 @@ std::string enumerated(const std::vector<std::string>& texts) {
 
 std::string theName(const Thing& thing) {
   return "the " + thing.name();
+}
+
+bool isPlural(const Thing& thing) {
+  constexpr auto singulars = std::to_array<std::string_view>({"atlas", "canvas", "iris", "lens", "news", "series", "thermos"});
+  const std::string name = thing.name();
+  const std::string head = name.substr(0, name.find(" of "));
+  const std::string last = head.substr(head.rfind(' ') + 1);  // npos + 1 is 0
+  return singularOf(last) != last && std::find(singulars.begin(), singulars.end(), last) == singulars.end();
 }
 
 std::string placeText(const Thing& thing) {
@@ -68,7 +79,7 @@ std::string stateText(const Thing& thing) {
     const auto& parts = thing.object->articulation->parts;
     const auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.id == joint->child; });
     const bool named = joints.size() > 1 && part != parts.end();
-    const std::string name = named ? "its " + (part->label.empty() ? part->id.value : part->label) + " is " : "";
+    const std::string name = named ? "its " + partName(*thing.object, *part) + " is " : "";
     states.push_back(name + (isOpen(*joint) ? "open by " + openingText(*joint) : "closed"));
   }
   return enumerated(states);

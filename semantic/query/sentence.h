@@ -16,6 +16,8 @@ namespace oikos::semantic {
 [[nodiscard]] std::string enumerated(const std::vector<std::string>& texts);
 /// "the blue cup".
 [[nodiscard]] std::string theName(const Thing& thing);
+/// "the house keys are", not "is": by the word that ends the name.
+[[nodiscard]] bool isPlural(const Thing& thing);
 /// "in the cupboard in the kitchen".
 [[nodiscard]] std::string placeText(const Thing& thing);
 /// "69 degrees", "25 cm".

@@ -2,11 +2,15 @@
 #include "semantic/query/thing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string_view>
 
 #include "semantic/model/placement.h"
 #include "semantic/model/relations.h"
+#include "semantic/query/time_words.h"
 
 namespace oikos::semantic {
 
@@ -25,11 +29,66 @@ std::string nameOf(const SmallObject& object) {
   return (color == object.properties.end() ? "" : spaced(color->value) + " ") + spaced(object.type);
 }
 
+/// An id without its furniture's, and without its number.
+struct IdWords {
+  std::string noun;
+  std::optional<int> number;
+};
+
+IdWords wordsOfId(const LargeObject& object, std::string_view id) {
+  const std::string& whole = object.id.value;
+  if (id.size() > whole.size() + 1 && id.starts_with(whole) && (id[whole.size()] == '-' || id[whole.size()] == '_')) {
+    id.remove_prefix(whole.size() + 1);
+  }
+  IdWords words{std::string(id), std::nullopt};
+  std::replace(words.noun.begin(), words.noun.end(), '-', ' ');
+  words.noun = spaced(words.noun);
+  const std::size_t space = words.noun.rfind(' ');
+  if (space != std::string::npos && space > 0) {
+    words.number = wholeNumber(std::string_view(words.noun).substr(space + 1));
+    words.noun = words.number ? words.noun.substr(0, space) : words.noun;
+  }
+  return words;
+}
+
+/// `like`: all parts or knobs of the furniture.
+template <class Like>
+std::string spokenId(const LargeObject& object, const std::string& id, const std::vector<Like>& like) {
+  constexpr std::array<std::string_view, 10> ordinals{"first", "second",  "third",  "fourth", "fifth",
+                                                      "sixth", "seventh", "eighth", "ninth",  "tenth"};
+  const IdWords words = wordsOfId(object, id);
+  if (!words.number) {
+    return words.noun;
+  }
+  std::size_t before = 0;
+  std::size_t same = 0;
+  for (const Like& other : like) {
+    const IdWords theirs = wordsOfId(object, other.id.value);
+    const bool alike = theirs.number && theirs.noun == words.noun;
+    same += alike ? 1 : 0;
+    before += alike && *theirs.number < *words.number ? 1 : 0;
+  }
+  if (same == 1) {
+    return words.noun;
+  }
+  return before < ordinals.size() ? std::string(ordinals[before]) + " " + words.noun : words.noun + " " + std::to_string(before + 1);
+}
+
 Eigen::Isometry3d carrierInMap(const Thing& thing, const std::string& carrier) {
   return findCarrierInMap(*thing.object, carrier).value_or(thing.object->T_map_object.toIsometry());
 }
 
 }  // namespace
+
+std::string partName(const LargeObject& object, const Part& part) {
+  return !part.label.empty() || !object.articulation ? labelled(part.label, part.id.value)
+                                                     : spokenId(object, part.id.value, object.articulation->parts);
+}
+
+std::string knobName(const LargeObject& object, const Knob& knob) {
+  return !knob.label.empty() || !object.articulation ? labelled(knob.label, knob.id.value)
+                                                     : spokenId(object, knob.id.value, object.articulation->knobs);
+}
 
 std::string spaced(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -59,9 +118,9 @@ std::string Thing::name() const {
     case ThingKind::kLargeObject:
       return labelled(object->label, object->type);
     case ThingKind::kPart:
-      return labelled(part->label, part->id.value) + " of the " + labelled(object->label, object->type);
+      return partName(*object, *part) + " of the " + labelled(object->label, object->type);
     case ThingKind::kKnob:
-      return labelled(knob->label, knob->id.value) + " of the " + labelled(object->label, object->type);
+      return knobName(*object, *knob) + " of the " + labelled(object->label, object->type);
     case ThingKind::kSmallObject:
       break;
   }

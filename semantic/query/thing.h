@@ -32,6 +32,11 @@ struct Thing {
   bool operator==(const Thing&) const = default;
 };
 
+/// As a person would say it: the label, else what the id says beyond that of its furniture, with the number as an ordinal among its like:
+/// "wardrobe-left_door" is "left door", "oven-knob_0" "first knob".
+[[nodiscard]] std::string partName(const LargeObject& object, const Part& part);
+[[nodiscard]] std::string knobName(const LargeObject& object, const Knob& knob);
+
 /// '_' as a space.
 [[nodiscard]] std::string spaced(std::string name);
 

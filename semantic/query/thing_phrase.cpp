@@ -2,10 +2,11 @@
 #include "semantic/query/thing_phrase.h"
 
 #include <algorithm>
-#include <array>
-#include <initializer_list>
 #include <string_view>
 
+#include "semantic/query/grammar_words.h"
+#include "semantic/query/phrase_words.h"
+#include "semantic/query/word_cursor.h"
 #include "semantic/query/words.h"
 
 namespace oikos::semantic {
@@ -14,92 +15,9 @@ namespace {
 
 constexpr int kDeepest = 12;  // nested phrases: "the cup on the table in the room left of …"
 
-bool isOneOf(std::string_view word, std::initializer_list<std::string_view> list) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-struct RelationName {
-  std::array<std::string_view, 5> words;
-  PlaceRelation relation;
-};
-
-/// The longer ones first.
-constexpr std::array<RelationName, 41> kRelationNames{{
-    {{"to", "the", "left", "of"}, PlaceRelation::kLeftOf},
-    {{"to", "the", "right", "of"}, PlaceRelation::kRightOf},
-    {{"on", "the", "left", "side", "of"}, PlaceRelation::kLeftOf},
-    {{"on", "the", "right", "side", "of"}, PlaceRelation::kRightOf},
-    {{"on", "the", "left", "of"}, PlaceRelation::kLeftOf},
-    {{"on", "the", "right", "of"}, PlaceRelation::kRightOf},
-    {{"on", "the", "top", "of"}, PlaceRelation::kOn},
-    {{"in", "the", "front", "of"}, PlaceRelation::kInFrontOf},
-    {{"in", "front", "of"}, PlaceRelation::kInFrontOf},
-    {{"on", "top", "of"}, PlaceRelation::kOn},
-    {{"left", "of"}, PlaceRelation::kLeftOf},
-    {{"right", "of"}, PlaceRelation::kRightOf},
-    {{"out", "of"}, PlaceRelation::kFrom},
-    {{"inside", "of"}, PlaceRelation::kIn},
-    {{"next", "to"}, PlaceRelation::kNear},
-    {{"close", "to"}, PlaceRelation::kNear},
-    {{"near", "to"}, PlaceRelation::kNear},
-    {{"on"}, PlaceRelation::kOn},
-    {{"upon"}, PlaceRelation::kOn},
-    {{"onto"}, PlaceRelation::kOn},
-    {{"atop"}, PlaceRelation::kOn},
-    {{"in"}, PlaceRelation::kIn},
-    {{"inside"}, PlaceRelation::kIn},
-    {{"into"}, PlaceRelation::kIn},
-    {{"within"}, PlaceRelation::kIn},
-    {{"under"}, PlaceRelation::kUnder},
-    {{"below"}, PlaceRelation::kUnder},
-    {{"beneath"}, PlaceRelation::kUnder},
-    {{"underneath"}, PlaceRelation::kUnder},
-    {{"at"}, PlaceRelation::kAt},
-    {{"from"}, PlaceRelation::kFrom},
-    {{"off"}, PlaceRelation::kFrom},
-    {{"near"}, PlaceRelation::kNear},
-    {{"beside"}, PlaceRelation::kNear},
-    {{"by"}, PlaceRelation::kNear},
-    {{"around"}, PlaceRelation::kNear},
-    {{"behind"}, PlaceRelation::kBehind},
-    {{"above"}, PlaceRelation::kAbove},
-    {{"over"}, PlaceRelation::kAbove},
-    {{"underneath", "of"}, PlaceRelation::kUnder},
-    {{"beneath", "of"}, PlaceRelation::kUnder},
-}};
-
-/// "second" is 1; nothing: no such word.
-std::optional<Ordinal> ordinalOf(const std::string& word) {
-  constexpr std::array<std::string_view, 10> names{"first", "second",  "third",  "fourth", "fifth",
-                                                   "sixth", "seventh", "eighth", "ninth",  "tenth"};
-  constexpr std::array<std::string_view, 10> digits{"1st", "2nd", "3rd", "4th", "5th", "6th", "7th", "8th", "9th", "10th"};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (word == names[i] || word == digits[i]) {
-      return Ordinal{static_cast<int>(i), false, false, std::string(names[i])};
-    }
-  }
-  if (isOneOf(word, {"top", "topmost", "upper", "uppermost", "highest"})) {
-    return Ordinal{0, false, false, "top"};
-  }
-  if (isOneOf(word, {"bottom", "lower", "lowest", "bottommost"})) {
-    return Ordinal{0, true, false, "bottom"};
-  }
-  return word == "middle" ? std::optional(Ordinal{0, false, true, "middle"}) : std::nullopt;
-}
-
-/// Names anything at all.
-bool isAnything(std::string_view word) {
-  return isOneOf(word, {"thing", "things", "object", "objects", "item", "items", "anything", "something", "everything", "stuff", "one",
-                        "ones", "all", "nothing", "every", "each"});
-}
-
-/// Stands before a place or an attribute and says no more than that it comes.
-bool isLinkVerb(std::string_view word) {
-  return isOneOf(word, {"that",     "which",    "who",     "is",         "are",      "was",       "were",    "be",     "been", "lying",
-                        "standing", "sitting",  "kept",    "stored",     "located",  "placed",    "lies",    "stands", "sits", "lie",
-                        "stand",    "sit",      "with",    "containing", "contains", "contain",   "holding", "holds",  "has",  "have",
-                        "having",   "full",     "made",    "colored",    "coloured", "belonging", "belongs", "owned",  "owns", "called",
-                        "named",    "labelled", "labeled", "it",         "put",      "left"});
+/// "and", "or" before a further place: "on the sofa or on the table".
+bool joinsPlaces(Words words) {
+  return words.size() > 2 && isOneOf(words.front(), {"and", "or"}) && findRelationWords(words.subspan(1));
 }
 
 class PhraseReader {
@@ -108,9 +26,7 @@ class PhraseReader {
 
   ThingPhrase read() {
     trim();
-    for (const std::string& word : words_) {
-      phrase_.said += (phrase_.said.empty() || word == "'s" ? "" : " ") + word;
-    }
+    say();
     while (!words_.empty() && step()) {
     }
     phrase_.words.insert(phrase_.words.begin(), attributes_.begin(), attributes_.end());
@@ -123,8 +39,20 @@ class PhraseReader {
     while (!words_.empty() && words_.front() != "'s" && isFiller(words_.front()) && !isOneOf(words_.front(), {"that", "of"})) {
       words_ = words_.subspan(1);
     }
+    while (words_.size() > 1 && words_.back() != "'s" && isIdleAtEnd(words_.back())) {
+      words_ = words_.first(words_.size() - 1);
+    }
     if (words_.size() > 2 && isOneOf(words_.back(), {"it", "them"}) && isOneOf(words_[words_.size() - 2], {"in", "on", "inside"})) {
       words_ = words_.first(words_.size() - 2);
+    }
+  }
+
+  void say() {
+    const auto first = std::find_if_not(words_.begin(), words_.end(), [](const std::string& word) {
+      return isOneOf(word, {"all", "every", "each", "both"});
+    });
+    for (const std::string& word : Words(first, words_.end())) {
+      phrase_.said += (phrase_.said.empty() || word == "'s" ? "" : " ") + word;
     }
   }
 
@@ -143,26 +71,43 @@ class PhraseReader {
     if (const auto ordinal = ordinalOf(word); ordinal && !phrase_.ordinal && words_.size() > 1) {
       return takeOrdinal(*ordinal);
     }
+    takeWord(word);
+    words_ = words_.subspan(1);
+    return true;
+  }
+
+  void takeWord(const std::string& word) {
     const bool names_side = isOneOf(word, {"left", "right"});
-    if (const auto open = opennessOf(word); open && (clause_ || words_.size() > 1)) {
+    if (const auto open = opennessOf(word); open && (clause_ || anything_ || words_.size() > 1 || hasNoun())) {
       phrase_.open = open;
     } else if (isLinkVerb(word) && (words_.size() > 1 || isBe(word) || word == "it") &&
                !(names_side && !clause_ && phrase_.words.empty())) {
       clause_ = clause_ || !isOneOf(word, {"'s"});
-    } else if (isFiller(word) || isAnything(word)) {
-      // says nothing
-    } else {
+    } else if (word == "for" && hasNoun() && words_.size() > 1) {
+      clause_ = true;  // "the remote for the television"
+    } else if (word == "furniture") {
+      phrase_.furniture = true;
+    } else if (isAnything(word)) {
+      anything_ = true;
+      phrase_.every = phrase_.every || isOneOf(word, {"all", "every", "each", "everything"});
+    } else if (!isFiller(word) && !isNumberOfThem()) {
       (clause_ ? attributes_ : phrase_.words).push_back(word);
     }
-    words_ = words_.subspan(1);
-    return true;
+  }
+
+  /// "the two blue cups".
+  [[nodiscard]] bool isNumberOfThem() const {
+    return phrase_.words.empty() && !clause_ && words_.size() > 1 && isNumberWord(words_.front()) &&
+           std::any_of(words_.begin() + 1, words_.end(), [](const std::string& word) { return singularOf(word) != word; });
   }
 
   [[nodiscard]] bool isSideAtEnd() const {
     return words_.size() <= 3 && words_.size() >= 2 && isOneOf(words_.front(), {"on", "at", "to"}) &&
            isOneOf(words_.back(), {"left", "right"});
   }
-  [[nodiscard]] bool hasNoun() const { return !phrase_.words.empty() || phrase_.ordinal || phrase_.nearest || !phrase_.whole.empty(); }
+  [[nodiscard]] bool hasNoun() const {
+    return !phrase_.words.empty() || phrase_.ordinal || phrase_.nearest || phrase_.furniture || !phrase_.whole.empty();
+  }
 
   /// A place, a whole, a second thing: all that follows belongs to it.
   bool readRest() {
@@ -171,8 +116,8 @@ class PhraseReader {
       phrase_.words.insert(phrase_.words.begin(), words_.back());
       return true;
     }
-    if (const auto relation = findRelationWords(words_); relation && relation->count < words_.size()) {
-      phrase_.places.push_back({relation->relation, nested(relation->count)});
+    if (auto place = readPlace()) {
+      phrase_.places.push_back(std::move(*place));
       return true;
     }
     if (words_.front() == "of" && hasNoun() && words_.size() > 1) {
@@ -180,10 +125,34 @@ class PhraseReader {
       return true;
     }
     if (isOneOf(words_.front(), {"and", "or"}) && hasNoun() && words_.size() > 1) {
+      phrase_.either = words_.front() == "or";
       phrase_.others.push_back(nested(1));
+      if (phrase_.places.empty()) {  // "the cup and the bowl on the table"
+        phrase_.places = phrase_.others.back().places;
+      }
       return true;
     }
     return false;
+  }
+
+  /// "in the kitchen", "not on the table", "on the sofa or on the table": up to the end.
+  std::optional<PlacePhrase> readPlace() {
+    const std::size_t negations = words_.front() == "not" ? 1 : 0;
+    const auto relation = findRelationWords(words_.subspan(negations));
+    const std::size_t first = negations + (relation ? relation->count : 0);
+    if (!relation || first >= words_.size()) {
+      return std::nullopt;
+    }
+    std::size_t end = first + 1;
+    while (end < words_.size() && !joinsPlaces(words_.subspan(end))) {
+      ++end;
+    }
+    PlacePhrase place{relation->relation, PhraseReader(words_.subspan(first, end - first), depth_ + 1).read(), negations > 0, {}};
+    if (end < words_.size()) {
+      ThingPhrase further = PhraseReader(words_.subspan(end + 1), depth_ + 1).read();
+      place.or_at = std::move(further.places);
+    }
+    return place;
   }
 
   /// "the cupboard's right door": what was read so far is the whole.
@@ -203,8 +172,17 @@ class PhraseReader {
   }
 
   bool takeNearest() {
+    const bool of_a_noun = hasNoun() || anything_;
     phrase_.nearest = true;
     words_ = words_.subspan(1);
+    while (words_.size() > 1 && isOneOf(words_.front(), {"one", "ones", "thing"})) {
+      words_ = words_.subspan(1);
+    }
+    const bool says_to = std::find(words_.begin(), words_.end(), "to") != words_.end();
+    if (of_a_noun && !says_to && !words_.empty()) {  // "the lamp nearest the bed"
+      phrase_.nearest_to.push_back(PhraseReader(words_, depth_ + 1).read());
+      return false;
+    }
     if (words_.size() > 1 && words_.front() == "to") {
       phrase_.nearest_to.push_back(PhraseReader(words_.subspan(1), depth_ + 1).read());
       return false;
@@ -241,34 +219,10 @@ class PhraseReader {
   std::vector<std::string> attributes_;  ///< of a clause: "that is red"
   std::vector<std::string> rest_;
   bool clause_ = false;
+  bool anything_ = false;  ///< "things", "something"
 };
 
 }  // namespace
-
-bool isBe(const std::string& word) {
-  return isOneOf(word, {"is", "are", "was", "were"});
-}
-
-std::optional<bool> opennessOf(const std::string& word) {
-  if (isOneOf(word, {"open", "opened", "ajar"})) {
-    return true;
-  }
-  if (isOneOf(word, {"closed", "shut"})) {
-    return false;
-  }
-  return std::nullopt;
-}
-
-std::optional<RelationWords> findRelationWords(Words words) {
-  for (const RelationName& name : kRelationNames) {
-    const auto end = std::find(name.words.begin(), name.words.end(), std::string_view());
-    const auto count = static_cast<std::size_t>(end - name.words.begin());
-    if (words.size() >= count && std::equal(name.words.begin(), end, words.begin())) {
-      return RelationWords{name.relation, count};
-    }
-  }
-  return std::nullopt;
-}
 
 ThingPhrase readThingPhrase(Words words) {
   return PhraseReader(words, 0).read();

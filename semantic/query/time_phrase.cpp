@@ -43,10 +43,10 @@ class TimeReader {
     if (is(i, {"now", "currently"})) {
       return 1;
     }
-    if (is(i, {"right"}) && is(i + 1, {"now"})) {
+    if ((is(i, {"right", "just"}) && is(i + 1, {"now"})) || (is(i, {"at"}) && is(i + 1, {"present"}))) {
       return 2;
     }
-    return is(i, {"at"}) && is(i + 1, {"the"}) && is(i + 2, {"moment"}) ? 3 : 0;
+    return is(i, {"at"}) && is(i + 1, {"the"}) && is(i + 2, {"moment", "minute"}) ? 3 : 0;
   }
 
   /// How many words there say a time; 0: none.

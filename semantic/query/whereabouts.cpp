@@ -9,9 +9,19 @@ namespace oikos::semantic {
 
 namespace {
 
+/// In a shelf is on it, and in anything that cannot be shut; but what is on a table is not in it.
+bool isSaidSo(const Thing& thing, Relation said) {
+  const Relation stored = thing.small_object->relation;
+  if (stored == said || thing.object == nullptr || thing.object->articulation) {
+    return stored == said;
+  }
+  return (stored == Relation::kIn && said == Relation::kOn) ||
+         (stored == Relation::kOn && said == Relation::kIn && thing.object->type == "shelf");
+}
+
 /// Small objects only: whether it lies on, in or under the place.
 bool isCarriedBy(const Thing& thing, const Thing& place, std::optional<Relation> relation) {
-  if (thing.kind != ThingKind::kSmallObject || (relation && thing.small_object->relation != *relation)) {
+  if (thing.kind != ThingKind::kSmallObject || (relation && !isSaidSo(thing, *relation))) {
     return false;
   }
   if (place.kind == ThingKind::kLargeObject) {

@@ -42,6 +42,15 @@ bool WordCursor::takeBack(WordList list) {
   return true;
 }
 
+bool WordCursor::takeAllBack(WordList sequence) {
+  if (words_.size() < sequence.size() ||
+      !std::equal(sequence.begin(), sequence.end(), words_.end() - static_cast<std::ptrdiff_t>(sequence.size()))) {
+    return false;
+  }
+  dropBack(sequence.size());
+  return true;
+}
+
 bool WordCursor::takeSpeaker() {
   take({"the"});
   return takeIf(isSpeaker);

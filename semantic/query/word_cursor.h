@@ -35,6 +35,7 @@ class WordCursor {
   bool take(WordList list);
   bool takeAll(WordList sequence);
   bool takeBack(WordList list);
+  bool takeAllBack(WordList sequence);
   /// "the robot", "anyone".
   bool takeSpeaker();
   bool takeBe() { return takeIf(isBe); }

@@ -105,11 +105,4 @@ std::string singularOf(const std::string& word) {
   return singular;
 }
 
-bool isFiller(std::string_view word) {
-  constexpr std::array<std::string_view, 28> fillers{
-      "the",  "a",     "an",    "my",    "our",  "your",  "his",    "her",   "their", "some",  "any",  "please", "of", "that",
-      "this", "those", "these", "still", "just", "again", "really", "maybe", "else",  "there", "ever", "other",  "'s", "both"};
-  return std::find(fillers.begin(), fillers.end(), word) != fillers.end();
-}
-
 }  // namespace oikos::semantic

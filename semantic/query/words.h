@@ -15,7 +15,4 @@ constexpr std::size_t kMostWords = 64;
 /// The singular of an English noun by its ending ("dishes" is "dish", "knives" is "knife", "glasses" is "glass"); other words as they are.
 [[nodiscard]] std::string singularOf(const std::string& word);
 
-/// Words that name nothing: articles, possessives, "please".
-[[nodiscard]] bool isFiller(std::string_view word);
-
 }  // namespace oikos::semantic

@@ -378,9 +378,9 @@ Home makeDemoHome() {
   home.version = 1;
   home.time_zone = "Europe/Berlin";
   Vocabulary vocabulary = builtInVocabulary();
-  for (const Term& term : {Term{"picture", {"painting"}, {}}, Term{"tv", {"television"}, {}}, Term{"rug", {"carpet"}, {}},
-                           Term{"lamp", {}, {}}, Term{"nightstand", {"bedside table"}, {}}, Term{"wardrobe", {}, {}},
-                           Term{"carton", {}, {}}, Term{"tin", {"can"}, {}}, Term{"plate", {}, {}}, Term{"cabinet", {}, {}}}) {
+  for (const Term& term :
+       {Term{"picture", {"painting"}, {}}, Term{"rug", {"carpet"}, {}}, Term{"lamp", {}, {}}, Term{"nightstand", {"bedside table"}, {}},
+        Term{"wardrobe", {}, {}}, Term{"carton", {}, {}}, Term{"tin", {"can"}, {}}, Term{"plate", {}, {}}, Term{"cabinet", {}, {}}}) {
     vocabulary.add(TermKind::kObjectType, term);
   }
   home.vocabulary = std::move(vocabulary);

@@ -79,7 +79,7 @@ TEST(HomeCheck, EnumTables) {
   test::checkEnumTable(JointType::kPrismatic);
   test::checkEnumTable(SwitchKind::kPrismatic);
   test::checkEnumTable(HandleKind::kRecessed);
-  test::checkEnumTable(TermKind::kColor);
+  test::checkEnumTable(TermKind::kSurplus);
 }
 
 }  // namespace

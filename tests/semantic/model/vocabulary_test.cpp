@@ -10,7 +10,8 @@
 namespace oikos::semantic {
 namespace {
 
-constexpr std::array<TermKind, 4> kKinds{TermKind::kRoomType, TermKind::kObjectType, TermKind::kAffordance, TermKind::kColor};
+constexpr std::array<TermKind, 5> kKinds{TermKind::kRoomType, TermKind::kObjectType, TermKind::kAffordance, TermKind::kColor,
+                                         TermKind::kSurplus};
 
 TEST(Vocabulary, FindsNamesAndSynonymsOfTheirKindOnly) {
   const Vocabulary words = builtInVocabulary();

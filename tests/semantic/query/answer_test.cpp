@@ -233,6 +233,30 @@ TEST(Answer, WhatIsNotKnownIsNoCertainNo) {
   EXPECT_EQ(ask(home, "are the doors closed").yes, true);
 }
 
+TEST(Answer, AHomeHasItsOwnSurplusWords) {
+  Home home = papersHouse();
+  const std::string question = "old chap where is the blue cup guv";
+  EXPECT_EQ(ask(home, question).status, kNotUnderstood);
+  home.vocabulary.edit().add(TermKind::kSurplus, {"guv", {"old chap"}});
+  EXPECT_EQ(ask(home, question).status, kAnswered);
+  EXPECT_EQ(ask(home, "where is the cup on the right").status, ask(papersHouse(), "where is the cup on the right").status);
+}
+
+TEST(Answer, NamesWhatItPassedOver) {
+  const Answer answer = ask(papersHouse(), "Where is the blue cup, Marvin?");
+  EXPECT_EQ(answer.status, kAnswered);
+  EXPECT_EQ(answer.not_understood, std::vector<std::string>{"marvin"});
+}
+
+TEST(Answer, StatesAndGrammarAreNoMisspeltThings) {
+  const Home home = papersHouse();
+  for (const char* question : {"where is the open", "where is the cup know", "is the blue cup shut on", "which cups are still"}) {
+    EXPECT_TRUE(ask(home, question).corrected.empty()) << question;
+  }
+  EXPECT_TRUE(ask(home, "where is my dear").suggestions.empty());
+  EXPECT_EQ(ask(home, "where is my suger").corrected.size(), 1U);
+}
+
 TEST(Answer, EnumTable) {
   test::checkEnumTable(AnswerStatus::kNotUnderstood);
 }

@@ -32,14 +32,15 @@ TEST(QuestionTable, TheWayPeopleTalk) {
 }
 
 TEST(QuestionTable, TalkOfSomeoneWhoHasNotSeenTheParser) {
-  constexpr std::size_t kReached = 89;
-  constexpr std::size_t kConfident = 3;
+  constexpr std::size_t kReached = 150;  // of which 89 before the parser's author had read the table
   const std::vector<test::TableRow> table = test::readTable(kSource / "tests/data/questions/talk.json");
   ASSERT_EQ(table.size(), 150U);
   const test::TableScore score = test::score(table, kSource, false);
   std::printf("talk: %zu of %zu right, %zu confident wrong answers\n", score.right, table.size(), score.confident.size());
   EXPECT_GE(score.right, kReached);
-  EXPECT_LE(score.confident.size(), kConfident);
+  for (const std::string& failure : score.confident) {
+    ADD_FAILURE() << failure;
+  }
 }
 
 }  // namespace
