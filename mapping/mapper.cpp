@@ -126,6 +126,10 @@ class Mapper {
     std::vector<View> chosen;
     const int submap = drive_.graph.nodes[static_cast<std::size_t>(mainSubmapNode())].submap;
     if (config_.volume.every_frame) {
+      for (int node = 0; node < drive_.graph.settled; ++node) {  // of earlier drives the keyframes are left
+        const Node& keyframe = drive_.graph.nodes[static_cast<std::size_t>(node)];
+        chosen.push_back({keyframe.frame, keyframe.T_world_camera});
+      }
       for (std::size_t i = 0; i < drive_.frames.size(); ++i) {
         const TrackedFrame& frame = drive_.frames[i];
         if (frame.status != TrackingStatus::kLost && drive_.graph.nodes[static_cast<std::size_t>(frame.reference)].submap == submap) {

@@ -107,6 +107,16 @@ TEST(MapExtension, AnExtendedMapIsExtendedAgain) {
   EXPECT_EQ(three.result.earlier_keyframes, two.result.keyframes);
 }
 
+TEST(MapExtension, WithEveryFrameInTheVolumeTheEarlierKeyframesStay) {
+  const Built map(richRecording(shortDrive(40, -20.0, 60.0)));
+  MapConfig config;
+  config.volume.every_frame = true;
+  const Built both(secondDrive(shortDrive(30, 0.0, 45.0)), extending(map), config);
+  const SavedMap saved(both.folder.path() / "keyframes.sqlite");
+  EXPECT_EQ(saved.keyframeCount(), both.result.keyframes);
+  EXPECT_GE(both.result.keyframes, map.result.keyframes);
+}
+
 TEST(MapExtension, SameBytesForAnyNumberOfThreads) {
   const Built map(richRecording(shortDrive(40, -20.0, 60.0)));
   const RichRecording second = secondDrive(shortDrive(40, 0.0, 80.0));

@@ -79,7 +79,7 @@ TEST(ReportHtml, ShowsAndDrawsTheFloorPlan) {
 TEST(ReportHtml, ShowsAndDrawsWhatWasExtendedAndWhatHasChanged) {
   const std::string html = reportHtml(test::extendedReport());
   for (const char* part : {"What was extended", "12.5 mm", "What has changed", "gone", "0.50, 0.25, 0.38", "class=\"earlier\"",
-                           "class=\"change-gone\"", "earlier drives", "chair-1", "table stands 25.0 cm from where the home has it"}) {
+                           "class=\"change-gone\"", "earlier drives", "chair-1", "table stands 25 cm from where the home has it"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
   MapReport unchanged = test::extendedReport();
