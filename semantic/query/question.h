@@ -45,6 +45,7 @@ struct ThingPhrase {
   bool nearest = false;                 ///< to `nearest_to`, or to the robot
   bool furniture = false;               ///< "furniture": no small objects
   bool every = false;                   ///< "every cup": what is asked of it has to hold for each
+  bool counted = false;                 ///< "two cups"
   bool either = false;                  ///< joined to `others` by "or": one of them will do
   std::vector<ThingPhrase> nearest_to;  ///< none or one
   std::vector<ThingPhrase> whole;       ///< none or one: that it is a part of, or belongs to

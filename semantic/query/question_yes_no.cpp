@@ -71,6 +71,9 @@ bool finishIsThere(QuestionDraft& draft) {
     return false;
   }
   ThingPhrase& thing = draft.question.thing;
+  if (thing.counted) {  // "are there five cups": exactly, or at least?
+    return false;
+  }
   if (thing.open && thing.others.empty()) {
     draft.question.kind = QuestionKind::kIsState;
     draft.question.state = *thing.open ? "open" : "closed";
@@ -131,7 +134,7 @@ bool readAnyChange(QuestionDraft& draft) {
   (void)takeAdverbs(ahead);
   ahead.take({"been"});
   const std::size_t verb = ahead.find({"change", "changed", "move", "moved", "happened", "happen", "new", "different"});
-  if (verb != 0) {
+  if (ahead.empty() || verb != 0) {
     return false;
   }
   ahead.drop();

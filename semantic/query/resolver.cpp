@@ -143,7 +143,7 @@ std::optional<ThingPhrase> Resolver::withNounOfOthers(const ThingPhrase& phrase)
   while (!last->others.empty()) {
     last = &last->others.back();
   }
-  if (last->words.size() < 2 || index_.words().isNoun(phrase.words.back())) {
+  if (last->words.size() < 2 || index_.words().isNoun(phrase.words.back()) || !index_.words().isNoun(last->words.back())) {
     return std::nullopt;
   }
   ThingPhrase whole = phrase;

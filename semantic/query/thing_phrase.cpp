@@ -90,7 +90,9 @@ class PhraseReader {
     } else if (isAnything(word)) {
       anything_ = true;
       phrase_.every = phrase_.every || isOneOf(word, {"all", "every", "each", "everything"});
-    } else if (!isFiller(word) && !isNumberOfThem()) {
+    } else if (isNumberOfThem()) {
+      phrase_.counted = true;
+    } else if (!isFiller(word)) {
       (clause_ ? attributes_ : phrase_.words).push_back(word);
     }
   }

@@ -189,10 +189,12 @@ TEST(Answer, WhatWasSeenLongAgoIsLessSureAndMayBeExpectedElsewhere) {
 TEST(Answer, NoTextThrows) {
   const Home home = papersHouse();
   const HomeIndex index(home);
-  const std::vector<std::string> words{"where", "what", "which", "is",      "are",   "how",    "many",   "far",    "open",    "closed",
-                                       "set",   "to",   "on",    "in",      "the",   "cup",    "table",  "fridge", "there",   "find",
-                                       "s",     "",     "\xFF",  "kitchen", "bring", "second", "drawer", "of",     "nearest", "yesterday",
-                                       "at",    "8",    "when",  "changed", "left",  "that",   "and",    "last",   "seen",    "do"};
+  const std::vector<std::string> words{"where",  "what",    "which",     "is",     "are",      "how",     "many",    "far",    "open",
+                                       "closed", "set",     "to",        "on",     "in",       "the",     "cup",     "table",  "fridge",
+                                       "there",  "find",    "s",         "",       "\xFF",     "kitchen", "bring",   "second", "drawer",
+                                       "of",     "nearest", "yesterday", "at",     "8",        "when",    "changed", "left",   "that",
+                                       "and",    "last",    "seen",      "do",     "anything", "but",     "not",     "or",     "every",
+                                       "it",     ",",       "isn't",     "anyone", "i",        "got",     "has",     "one",    "two"};
   std::uint32_t state = 7;
   for (int i = 0; i < 20000; ++i) {
     std::string question;
@@ -240,6 +242,14 @@ TEST(Answer, AHomeHasItsOwnSurplusWords) {
   home.vocabulary.edit().add(TermKind::kSurplus, {"guv", {"old chap"}});
   EXPECT_EQ(ask(home, question).status, kAnswered);
   EXPECT_EQ(ask(home, "where is the cup on the right").status, ask(papersHouse(), "where is the cup on the right").status);
+}
+
+TEST(Answer, AnUnfinishedQuestionIsNotUnderstood) {
+  for (const char* question : {"anything but", "anything", "is", "is not", "has anything", "are there five cups"}) {
+    EXPECT_NE(ask(papersHouse(), question).status, kUnknown) << question;
+    EXPECT_FALSE(ask(papersHouse(), question).yes) << question;
+    EXPECT_FALSE(ask(papersHouse(), question).sentence.empty()) << question;
+  }
 }
 
 TEST(Answer, NamesWhatItPassedOver) {
