@@ -42,6 +42,9 @@ std::vector<Term> builtInSurplus() {
         "be so good as to",
         "would you be so good as to",
         "would you mind telling me",
+        "would it be possible to",
+        "do me a favour",
+        "do me a favor",
         "would you mind",
         "possibly",
         "let me know",
@@ -103,8 +106,8 @@ std::vector<Term> builtInSurplus() {
         "make sure that", "find out"}},
       {"or_not", {"or what", "or something", "or so", "do not you", "i guess", "i suppose", "i think", "i believe", "i hope"}},
       {"exactly",
-       {"precisely", "in total", "altogether", "all together", "in all", "all in all", "at all", "by any chance", "by chance", "actually",
-        "though", "perhaps", "maybe"}},
+       {"precisely", "in total", "surely", "altogether", "all together", "in all", "all in all", "at all", "by any chance", "by chance",
+        "actually", "though", "perhaps", "maybe"}},
       {"correct", {"yes", "is that right", "is that correct", "am i right", "eh", "huh"}}};
 }
 

@@ -19,6 +19,11 @@ bool takeSearch(WordCursor& words) {
   const bool of_speaker = ahead.take({"i", "we"});
   if (of_speaker) {
     ahead.take({"have", "am", "are", "still"});
+    const bool seems = ahead.takeAll({"cant", "seem", "to"}) || ahead.takeAll({"cannot", "seem", "to"});
+    if (seems && ahead.take({"find", "see"})) {
+      words = ahead;
+      return true;
+    }
   }
   const bool searches = ahead.takeAll({"looking", "for"}) || ahead.takeAll({"searching", "for"}) || ahead.takeAll({"look", "for"}) ||
                         ahead.takeAll({"search", "for"});

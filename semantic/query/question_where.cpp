@@ -123,7 +123,7 @@ bool readStandGoal(QuestionDraft& draft) {
 bool readWhere(QuestionDraft& draft) {
   WordCursor& words = draft.words;
   (void)takeAdverbs(words);
-  words.takeAll({"on", "earth"}) || words.takeAll({"the", "heck"});
+  words.takeAll({"on", "earth"}) || words.takeAll({"the", "heck"}) || words.takeAll({"the", "hell"});
   if (words.takeAll({"have", "you"}) || words.takeAll({"did", "you"}) || words.takeAll({"has", "anyone"})) {
     words.take({"last", "ever"});
     words.takeIf(isSeeing) || words.take({"put", "leave", "left", "got"});

@@ -250,6 +250,12 @@ bool readSentence(QuestionDraft& draft) {
     draft.is_statement = false;
     return false;
   }
+  WordCursor before_state = words;
+  std::string state = takeStateBack(before_state);
+  if (!state.empty() && !before_state.empty() && !isStateWord(before_state.front())) {  // "oven off?"
+    words = before_state;
+    return finishState(draft, std::move(state));
+  }
   const std::size_t nearest = words.find({"nearest", "closest"});
   return nearest < std::min<std::size_t>(words.rest().size(), 2) && draft.finish(QuestionKind::kWhere);
 }

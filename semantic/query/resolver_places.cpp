@@ -44,7 +44,8 @@ Resolution Resolver::resolvePlace(const PlacePhrase& place) const {
 
 void Resolver::filterByPlace(const PlacePhrase& place, Lookup& lookup, Resolution& resolution) const {
   if (isHome(place.thing) && index_.find(place.thing.words).matches.empty()) {
-    if (place.negated) {
+    const bool inside = place.relation == PlaceRelation::kIn || place.relation == PlaceRelation::kAt;
+    if (place.negated || !inside) {
       lookup.matches.clear();
     }
     return;

@@ -34,6 +34,13 @@ bool hasPronoun(const std::vector<std::string>& clause) {
   return std::any_of(clause.begin(), clause.end(), isPronoun);
 }
 
+/// "put the cup on the table", "open the fridge", but not "open doors": what Oikos does not do.
+bool isOrder(Words words) {
+  const std::string& verb = words.front();
+  const bool names_open = opennessOf(verb) && words.size() > 1 && !isFiller(words[1]);
+  return isGrammarWord(verb) && !isFiller(verb) && !names_open;
+}
+
 /// With the thing in the place of the pronoun.
 std::vector<std::string> spelledOut(const std::vector<std::string>& clause, const std::vector<std::string>& thing) {
   std::vector<std::string> words;
@@ -83,7 +90,7 @@ ParsedQuestion Utterance::parse(const Clause& clause) const {
   }
   Question question;
   question.thing = readThingPhrase(words);
-  if (question.thing.words.empty()) {
+  if (question.thing.words.empty() || isOrder(words)) {
     return parsed;
   }
   const Resolution meant = Resolver(index_, index_, std::nullopt).resolve(question.thing);
