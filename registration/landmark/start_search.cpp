@@ -106,10 +106,8 @@ std::vector<Eigen::Isometry3d> findStarts(const LandmarkScene& scene, const Scan
       kept.push_back(one);
     }
   }
-  std::vector<Eigen::Isometry3d> starts;
-  for (const Screened& one : kept) {
-    starts.push_back(one.T_map_camera);
-  }
+  std::vector<Eigen::Isometry3d> starts(kept.size());
+  std::transform(kept.begin(), kept.end(), starts.begin(), [](const Screened& one) { return one.T_map_camera; });
   return starts;
 }
 
