@@ -93,7 +93,8 @@ JointDecision decide(const JointEvidence& evidence, const JointSight& sight, con
   const bool is_sharp = isSummit(evidence) && decision.confidence >= config.min_confidence && std::sqrt(evidence.variance) <= max_sigma;
   const bool is_shown =
       sight.agreeing >= config.min_agreeing && sight.agreeing >= config.min_share * static_cast<double>(sight.agreeing + sight.behind);
-  const bool is_hidden = sight.read == 0 || sight.nearer > config.max_hidden * sight.read;
+  const bool is_hidden =
+      sight.read == 0 || sight.nearer > config.max_hidden * static_cast<double>(sight.agreeing + sight.nearer + sight.behind);
   const LikelyRuns runs = likelyRuns(evidence);
   if (is_hidden) {
     decision.status = JointStatus::kHidden;

@@ -55,7 +55,7 @@ struct JointDecisionConfig {
   double max_sigma_m = 0.018;
   int min_agreeing = 8;      ///< pixels of the scan that show the part
   double min_share = 0.6;    ///< of the readings of it or behind it, those of it
-  double max_hidden = 0.85;  ///< share of its readings that may lie before it
+  double max_hidden = 0.85;  ///< of the readings of it, before it and behind it, those that may lie before it
   double max_spread = 0.4;   ///< of the range, that the values of an ambiguous joint may fill; beyond, nothing is known of it
 
   template <class Visitor>

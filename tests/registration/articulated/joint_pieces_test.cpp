@@ -265,7 +265,8 @@ TEST(JointDecision, WhatIsSeenThroughOrHiddenIsNotFound) {
   sight.behind = 150;
   EXPECT_EQ(decide(evidence, sight, {}).status, JointStatus::kNotObservable);
   sight = kGoodSight;
-  sight.nearer = 195;
+  sight.agreeing = 10;
+  sight.nearer = 150;
   EXPECT_EQ(decide(evidence, sight, {}).status, JointStatus::kHidden);
   sight = kGoodSight;
   sight.agreeing = 3;
