@@ -9,6 +9,7 @@
 
 #include "core/base/config.h"
 #include "core/base/error.h"
+#include "mapping/extend/known_views.h"
 #include "mapping/odometry/corner_detector.h"
 
 namespace oikos::mapping {
@@ -31,6 +32,23 @@ std::vector<DriveView> placedFrames(const FrontEndResult& drive, const BackEndRe
     }
   }
   return views;
+}
+
+/// Keyframes of the drive that bring no new place are none: before the drive was placed, it had to make them.
+void dropKnown(FrontEndResult& drive, const std::vector<View>& earlier, const FusionInput& input, const RevisionConfig& config) {
+  std::vector<View> fresh;
+  std::vector<std::size_t> nodes;
+  for (std::size_t n = static_cast<std::size_t>(drive.graph.settled); n < drive.graph.nodes.size(); ++n) {
+    const Node& node = drive.graph.nodes[n];
+    if (node.keyframe && node.submap == 0) {
+      fresh.push_back({node.frame, node.T_world_camera});
+      nodes.push_back(n);
+    }
+  }
+  const std::vector<char> is_known = findKnownViews(earlier, fresh, input, config);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    drive.graph.nodes[nodes[i]].keyframe = is_known[i] == 0;
+  }
 }
 
 /// A node where there was none, tied to the frame's reference.
@@ -60,6 +78,9 @@ void makeKeyframe(FrontEndResult& drive, int id, const camera::RgbdFrame& frame,
                   const FrontEndConfig& config) {
   Node& node = drive.graph.nodes[static_cast<std::size_t>(id)];
   node.keyframe = true;
+  if (!node.hosted.empty()) {
+    return;  // it was one before, of a place that is known
+  }
   for (Landmark& landmark : detectCorners(frame, {}, config.corners)) {
     landmark.host = id;
     node.hosted.push_back(static_cast<int>(drive.graph.landmarks.size()));
@@ -105,6 +126,7 @@ void MapExtension::revise(FrontEndResult& drive, BackEndResult& optimised, const
     const Node& keyframe = drive.graph.nodes[static_cast<std::size_t>(node)];
     earlier.push_back({keyframe.frame, keyframe.T_world_camera});
   }
+  dropKnown(drive, earlier, tools.input, tools.revision);
   const std::vector<DriveView> views = spreadOut(placedFrames(drive, optimised), tools.revision);
   revision_ = mapping::revise(earlier, views, tools.input, tools.occupancy, tools.revision);
   if (tools.explain) {

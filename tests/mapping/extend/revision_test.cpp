@@ -140,6 +140,8 @@ TEST(RevisionConfig, RulesAreChecked) {
                                           {"view_step_deg", "0", "must be > 0 and <= 180"},
                                           {"pose_sigma_m", "-1", "must be >= 0"},
                                           {"pose_sigma_deg", "nan", "must be >= 0"},
+                                          {"known_share", "1.5", "must be from 0 to 1"},
+                                          {"like_view_deg", "0", "must be > 0 and <= 180"},
                                           {"witnesses", "0", "must be >= 1"},
                                           {"min_gain_voxels", "0", "must be >= 1"}});
 }
