@@ -251,7 +251,7 @@ class Refiner {
 
   /// The prior answers for what was not observed.
   void fuse(const Solution& solution, LandmarkRefinement& answer) const {
-    const StepMatrix fit = solution.fit.covariance;
+    const StepMatrix fit = solution.fit.covariance + ownPlacement(solution.T_map_camera);
     const StepMatrix gain = fit * (fit + planarCovariance(prior_)).inverse();
     const Step step = gain * stepToPrior(prior_, solution.T_map_camera);
     CameraMotion motion(scene_.scene(), solution.T_map_camera, PoseFreedom::kPlanar, prior_.robot_camera);
@@ -261,6 +261,25 @@ class Refiner {
     answer.unobserved = solution.fit.unobserved;
     answer.moved_m = (answer.T_map_camera * prior_.robot_camera - prior_.T_map_camera * prior_.robot_camera).norm();
     answer.moved_rad = Eigen::AngleAxisd(prior_.T_map_camera.linear().transpose() * answer.T_map_camera.linear()).angle();
+  }
+
+  /// How a single piece that stands a little elsewhere, and turned, moves the robot's x, y and yaw: of many, each has its own error; of
+  /// one, all surfaces are wrong together.
+  [[nodiscard]] StepMatrix ownPlacement(const Eigen::Isometry3d& T_map_camera) const {
+    StepMatrix covariance = StepMatrix::Zero(3, 3);
+    if (!only_) {
+      return covariance;
+    }
+    const auto is_its = [this](const LandmarkSurface& surface) { return surface.landmark == *only_; };
+    const auto first = std::find_if(scene_.surfaces().begin(), scene_.surfaces().end(), is_its) - scene_.surfaces().begin();
+    const Eigen::Vector3d piece_map = scene_.scene().parts()[static_cast<std::size_t>(first)].T_map_part.translation();
+    const Eigen::Vector3d arm = T_map_camera * prior_.robot_camera - piece_map;
+    const double shift_sq = config_.align.surface_sigma_m * config_.align.surface_sigma_m;
+    const double turn_rad = config_.align.normal_sigma_deg * kDegree;
+    const Eigen::Vector3d turned(-turn_rad * arm.y(), turn_rad * arm.x(), turn_rad);
+    covariance.diagonal() << shift_sq, shift_sq, 0.0;
+    covariance += turned * turned.transpose();
+    return covariance;
   }
 
   [[nodiscard]] geometry::Matrix6d covariance6(const StepMatrix& planar, const Eigen::Isometry3d& T_map_camera) const {
