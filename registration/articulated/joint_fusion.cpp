@@ -230,6 +230,7 @@ std::vector<JointSpan> fuse(const std::vector<JointSighting>& sightings, const J
   }
   const Bins bins = binsOf(kept.front().evidence, config);
   std::vector<std::vector<double>> log_chances;
+  log_chances.reserve(kept.size());
   for (const JointSighting& sighting : kept) {
     log_chances.push_back(logChances(bins, sighting, config));
   }

@@ -78,6 +78,7 @@ void JointProfiler::choose(int link) {
     }
   }
   std::vector<Eigen::Isometry3d> T_link_camera;
+  T_link_camera.reserve(views_.size());
   for (std::size_t other = 0; other < views_.size(); ++other) {
     T_link_camera.push_back(T_camera_link(static_cast<int>(other)).inverse());
   }

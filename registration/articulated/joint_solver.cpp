@@ -225,7 +225,7 @@ SolverReport JointSolver::report(const JointEstimates& estimates, const Freedom&
   report.shared_variances.assign(tree_.links().size(), 0.0);
   for (std::size_t i = 0; i < freedom.links.size(); ++i) {
     const auto link = static_cast<std::size_t>(freedom.links[i]);
-    const auto index = static_cast<Eigen::Index>((freedom.base ? kBaseSize : 0) + kLinkSize * static_cast<int>(i));
+    const auto index = static_cast<Eigen::Index>(freedom.base ? kBaseSize : 0) + kLinkSize * static_cast<Eigen::Index>(i);
     const double of_axis_rad = config_.axis_sigma_deg * kDegree / std::sqrt(3.0);
     const bool is_turn = equations.axes()[link].is_turn;
     report.shared_variances[link] = is_turn ? of_axis_rad * of_axis_rad : config_.axis_sigma_m * config_.axis_sigma_m;

@@ -31,6 +31,7 @@ std::vector<double> localMaxima(const JointEvidence& evidence, double share, int
   std::stable_sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return score[a] > score[b]; });
   peaks.resize(std::min(peaks.size(), static_cast<std::size_t>(most)));
   std::vector<double> values;
+  values.reserve(peaks.size());
   for (const std::size_t peak : peaks) {
     values.push_back(evidence.values[peak]);
   }

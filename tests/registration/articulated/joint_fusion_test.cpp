@@ -55,7 +55,7 @@ std::vector<JointSighting> doorAt(const std::vector<double>& values_deg) {
 
 TEST(JointFusion, NothingSeenNothingSaid) {
   EXPECT_TRUE(fuse({}, {}).empty());
-  JointSighting unseen;
+  const JointSighting unseen;
   EXPECT_TRUE(fuse({unseen}, {}).empty());
 }
 
@@ -170,7 +170,7 @@ TEST(JointFusion, AnAmbiguousImageIsSettledByAnother) {
   const std::vector<JointSpan> open = fuse({either}, {});
   ASSERT_EQ(open.size(), 1U);
   EXPECT_EQ(open[0].status, JointStatus::kAmbiguous);
-  JointSighting rough = sightingOf(58.0, 1, 2.5 * kDegree);
+  const JointSighting rough = sightingOf(58.0, 1, 2.5 * kDegree);
   const std::vector<JointSpan> settled = fuse({either, rough}, {});
   ASSERT_EQ(settled.size(), 1U);
   EXPECT_NEAR(settled[0].value, 60.0 * kDegree, 1.5 * kDegree);

@@ -33,7 +33,7 @@ TEST(JointTree, VelocitiesAreThoseOfTheKinematics) {
   for (const std::string kind : {"cabinet", "drawer_unit", "dishwasher"}) {
     const JointTree tree(model::makeShape(kind, {}, kind));
     const Eigen::Isometry3d T_map_model = Eigen::Translation3d(1.0, -2.0, 0.3) * Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ());
-    std::vector<double> values(tree.model().joints.size(), 0.2);
+    const std::vector<double> values(tree.model().joints.size(), 0.2);
     const std::vector<JointAxis> axes = tree.axes(T_map_model, tree.partPoses(values));
     for (std::size_t link = 1; link < tree.links().size(); ++link) {
       const auto part = static_cast<std::size_t>(tree.links()[link].parts.front());
@@ -166,7 +166,7 @@ TEST(PixelMixture, DensitiesAreDensities) {
 TEST(PixelMixture, EachComponentHasItsPlace) {
   const PixelMixture mixture((MixtureConfig()));
   const ModelledPixel front = {1.5, 0.01, true, 0.0};
-  ModelledPixel inside = {2.0, 0.01, true, 0.5};
+  const ModelledPixel inside = {2.0, 0.01, true, 0.5};
   EXPECT_GT(mixture.shareOfSurface(1.505, front), 0.95);
   EXPECT_LT(mixture.shareOfSurface(1.3, front), 0.01);
   EXPECT_LT(mixture.shareOfSurface(1.7, front), 0.01);
@@ -294,7 +294,7 @@ TEST(JointDecision, AWideOrUnexplainedValueIsNotFound) {
 }
 
 TEST(JointDecision, MomentsOfAProfile) {
-  JointEvidence evidence = evidenceOf({0.0, 0.0, 0.0}, 0.0);
+  const JointEvidence evidence = evidenceOf({0.0, 0.0, 0.0}, 0.0);
   const ProfileMoments moments = momentsOf(evidence);
   EXPECT_NEAR(moments.mean, 5.0 * kDegree, 1e-12);
   EXPECT_NEAR(moments.variance, 2.0 / 3.0 * 25.0 * kDegree * kDegree, 1e-12);
