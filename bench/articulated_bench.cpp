@@ -191,14 +191,14 @@ int main(int argc, char** argv) {
   std::string order = "together";
   app.add_option("--trials", trials, "images; ten kinds of furniture take turns")->check(CLI::PositiveNumber);
   app.add_option("--first", first, "number of the first");
-  app.add_option("--sensor", sensor, "ideal, kinect1, kinect2");
+  app.add_option("--sensor", sensor, "ideal, kinect1, kinect2")->check(CLI::IsMember({"ideal", "kinect1", "kinect2"}));
   app.add_option("--dimension-m", settings.world.dimension_m, "deviation of each length from the model's");
   app.add_option("--axis-m", settings.world.axis_m, "of each coordinate of a joint's origin");
   app.add_option("--axis-deg", settings.world.axis_deg, "of its direction");
   app.add_option("--shift-m", settings.world.shift_m, "the piece stands so far from where it is believed");
   app.add_option("--shift-deg", settings.world.shift_deg, "and is turned so far");
   app.add_option("--occluded", settings.world.occluded, "share of the piece's width that a person hides");
-  app.add_option("--order", order, "'part after part' or 'together'");
+  app.add_option("--order", order, "'part after part' or 'together'")->check(CLI::IsMember({"part after part", "together"}));
   app.add_option("--seed", settings.seed, "of the trials");
   app.add_option("--tempering", settings.config.solver.tempering, "of a reading's information");
   app.add_option("--most-readings", settings.config.solver.most_readings, "that a link counts for");
@@ -208,8 +208,8 @@ int main(int argc, char** argv) {
   app.add_option("--frames", frames, "of a drive past each piece, one of whose joints is moved meanwhile; 0: single images");
   app.add_flag("--verbose", verbose, "a line for each joint");
   CLI11_PARSE(app, argc, argv);
-  settings.world.sensor = *base::findEnum<camera::DepthSensorKind>(sensor);
-  settings.config.order = *base::findEnum<registration::SolveOrder>(order);
+  settings.world.sensor = base::findEnum<camera::DepthSensorKind>(sensor).value_or(settings.world.sensor);
+  settings.config.order = base::findEnum<registration::SolveOrder>(order).value_or(settings.config.order);
   if (frames > 0) {
     sequence.frames = frames;
     runSequences(first, trials, sequence, verbose);

@@ -83,7 +83,9 @@ std::vector<JointSequence> runSequence(int number, const SequenceSettings& setti
     lookFrom(distance_m, first_rad - std::copysign(settings.arc_deg * kDegree, first_rad) * frame / settings.frames, world);
     Random same_contents(contents_seed);
     const Picture picture =
-        takePicture(world, settings.trial.world, static_cast<std::uint64_t>(number * settings.frames + frame), same_contents);
+        takePicture(world, settings.trial.world,
+                    static_cast<std::uint64_t>(number) * static_cast<std::uint64_t>(settings.frames) + static_cast<std::uint64_t>(frame),
+                    same_contents);
     last = registration.run(registration::makeScan(picture.depth_m, picture.camera, {}), world.T_map_camera, believed).joints;
     sightings.resize(last.size());
     for (std::size_t j = 0; j < last.size(); ++j) {
