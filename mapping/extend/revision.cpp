@@ -60,6 +60,7 @@ LocatedScan halvedScan(const cv::Mat& depth_m, const camera::PinholeCamera& came
 std::vector<LocatedScan> scansOf(const std::vector<DriveView>& drive, const FusionInput& input, const RevisionConfig& config) {
   const geometry::Matrix6d covariance = covarianceOf(config);
   std::vector<View> views;
+  views.reserve(drive.size());
   for (const DriveView& one : drive) {
     views.push_back(one.view);
   }

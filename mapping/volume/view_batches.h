@@ -19,8 +19,9 @@ void forEachBatch(const std::vector<View>& views, const FusionInput& input, cons
   const int batch = 2 * std::max(1, input.threads);
   for (int begin = 0; begin < static_cast<int>(views.size()); begin += batch) {
     std::vector<Item> items(static_cast<std::size_t>(std::min(batch, static_cast<int>(views.size()) - begin)));
-    base::parallelFor(static_cast<int>(items.size()), input.threads,
-                      [&](int i) { items[static_cast<std::size_t>(i)] = prepare(views[static_cast<std::size_t>(begin + i)]); });
+    base::parallelFor(static_cast<int>(items.size()), input.threads, [&](int i) {
+      items[static_cast<std::size_t>(i)] = prepare(views[static_cast<std::size_t>(begin) + static_cast<std::size_t>(i)]);
+    });
     use(items);
     base::reportProgress(input.progress, {stage, begin + static_cast<int>(items.size()), static_cast<int>(views.size())});
   }
