@@ -173,7 +173,7 @@ TEST(OpenApi, AnswersToEveryKindOfQuestionAreAsDescribed) {
   std::set<semantic::QuestionKind> kinds;
   std::map<std::string, Names> said;
   Json questions = Json::array();
-  for (const char* const table : {"table.json", "people.json", "talk.json"}) {
+  for (const char* const table : {"table.json", "people.json", "talk.json", "strangers.json"}) {
     std::ifstream file(kSource / "tests/data/questions" / table);
     for (const Json& row : Json::parse(file)) {
       questions.push_back(row);

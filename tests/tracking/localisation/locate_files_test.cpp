@@ -86,7 +86,7 @@ TEST(PoseSource, HasNames) {
 }
 
 TEST(LocaliseConfig, RulesAreChecked) {
-  EXPECT_TRUE(base::validateConfig(LocaliseConfig{}).empty());
+  EXPECT_EQ(base::validateConfig(LocaliseConfig{}), std::vector<std::string>());
   LocaliseConfig config;
   config.prior_sigma_m = 0.0;
   EXPECT_EQ(config.validate(), std::vector<std::string>{"prior_sigma_m = 0: must be > 0"});
