@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <utility>
+#include "core/geometry/outline_area.h"
 
 namespace oikos::mapping {
 
@@ -13,19 +14,9 @@ namespace {
 constexpr double kShortest_m = 0.001;
 constexpr double kTouching_m = 0.01;
 
-double doubleArea(const std::vector<Eigen::Vector2d>& outline) {
-  double area = 0.0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Eigen::Vector2d& a = outline[i];
-    const Eigen::Vector2d& b = outline[(i + 1) % outline.size()];
-    area += a.x() * b.y() - a.y() * b.x();
-  }
-  return area;
-}
-
 /// `side`: 1 for lines that are seen from the left of a counter-clockwise outline, which is inside; -1 from outside.
 void addSides(const std::vector<Eigen::Vector2d>& outline, double side, bool is_wall, FloorPlan& plan) {
-  const double turn = doubleArea(outline) < 0.0 ? -side : side;
+  const double turn = geometry::signedDoubleArea(outline) < 0.0 ? -side : side;
   const int room = plan.lines.empty() ? 0 : plan.lines.back().room + 1;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Eigen::Vector2d& a = outline[i];

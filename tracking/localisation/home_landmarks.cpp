@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/nearest_name.h"
+#include "core/geometry/outline_area.h"
 #include "core/model/primitives.h"
 #include "core/model/triangle_mesh.h"
 #include "semantic/model/home_models.h"
@@ -23,17 +24,6 @@ constexpr double kBehind_m = 0.05;  ///< outwards of the outline: what hangs on 
 constexpr double kThickness_m = 0.01;
 constexpr double kAtWall_m = 0.5;  ///< from a wall to the middle of a piece that stands at it
 
-/// Twice the area, positive if the corners go round to the left.
-double signedArea(const std::vector<Eigen::Vector2d>& outline) {
-  double area = 0.0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Eigen::Vector2d& a = outline[i];
-    const Eigen::Vector2d& b = outline[(i + 1) % outline.size()];
-    area += a.x() * b.y() - a.y() * b.x();
-  }
-  return area;
-}
-
 /// One wall of an outline, `behind_m` outwards of it.
 struct Wall {
   model::TriangleMesh mesh_wall;
@@ -42,7 +32,7 @@ struct Wall {
 
 std::vector<Wall> wallsOf(const std::vector<Eigen::Vector2d>& outline_map, double behind_m) {
   std::vector<Wall> walls;
-  const double side = signedArea(outline_map) > 0.0 ? 1.0 : -1.0;
+  const double side = geometry::signedDoubleArea(outline_map) > 0.0 ? 1.0 : -1.0;
   for (std::size_t i = 0; i < outline_map.size(); ++i) {
     const Eigen::Vector2d& from = outline_map[i];
     const Eigen::Vector2d along = outline_map[(i + 1) % outline_map.size()] - from;
