@@ -103,11 +103,15 @@ std::vector<Term> builtInSurplus() {
         "may i ask you"}},
       {"if",
        {"whether", "check if", "check whether", "see if", "see whether", "find out if", "find out whether", "look if", "look whether",
-        "make sure that", "find out"}},
+        "make sure that", "find out", "have a look if", "have a look whether", "take a look if", "take a look whether"}},
       {"or_not", {"or what", "or something", "or so", "do not you", "i guess", "i suppose", "i think", "i believe", "i hope"}},
-      {"exactly",
-       {"precisely", "in total", "surely", "altogether", "all together", "in all", "all in all", "at all", "by any chance", "by chance",
-        "actually", "though", "perhaps", "maybe"}},
+      {"exactly", {"precisely",       "in total",      "surely",           "altogether",
+                   "all together",    "in all",        "all in all",       "at all",
+                   "by any chance",   "by chance",     "actually",         "though",
+                   "perhaps",         "maybe",         "for breakfast",    "for lunch",
+                   "for dinner",      "for supper",    "how does it work", "how does that work",
+                   "which one is it", "be a dear and", "be a love and",    "be so kind and",
+                   "be so good and"}},
       {"correct", {"yes", "is that right", "is that correct", "am i right", "eh", "huh"}}};
 }
 

@@ -194,14 +194,14 @@ void answerIsThere(AnswerContext& ctx) {
   ctx.take(*things);
   const Things elsewhere = missingOf(ctx, *things);
   ctx.answer.yes = !things->empty() && isThereOfEach(ctx, ctx.question().thing) && (elsewhere.empty() || !ctx.question().all);
+  const auto is_there = [&](const Thing& thing) { return theName(thing) + " " + ctx.be(thing) + " " + placeText(thing); };
   if (*ctx.answer.yes) {
-    return ctx.say(
-        "yes: " + listOf(*things, [&](const Thing& thing) { return theName(thing) + " " + ctx.be(thing) + " " + placeText(thing); }) + ".");
+    return ctx.say("yes: " + listOf(*things, is_there) + ".");
   }
   if (!things->empty() && !ctx.question().all) {
     return ctx.say("only " + listOf(*things, nameAndPlace) + ".");
   }
-  ctx.say((things->empty() ? "not that I know" : "not all") + (elsewhere.empty() ? "" : ": " + listOf(elsewhere, nameAndPlace)) + ".");
+  ctx.say((things->empty() ? "not that I know" : "not all") + (elsewhere.empty() ? "" : ": " + listOf(elsewhere, is_there)) + ".");
 }
 
 void answerProperty(AnswerContext& ctx) {

@@ -97,7 +97,7 @@ HomeWords::HomeWords(const Vocabulary& vocabulary) {
 void HomeWords::add(const Thing& thing) {
   // A part's id says what it belongs to: "bathroom-cabinet-left-door" is no "bathroom door".
   std::string spoken;
-  std::vector<Text> texts{{thing.id(), false, thing.kind != ThingKind::kPart && thing.kind != ThingKind::kKnob}};
+  std::vector<Text> texts{{thing.id(), false, thing.kind != ThingKind::kPart && thing.kind != ThingKind::kKnob, false, true}};
   const auto addFurniture = [&](bool own) {
     texts.push_back({thing.object->id.value, false, own});
     texts.push_back({thing.object->label, false, own});
@@ -151,6 +151,9 @@ void HomeWords::addText(std::uint32_t number, const Text& text) {
     } else {
       for (const std::string& term : named->second) {
         addPosting(term, {number, fit});
+      }
+      if (phrase.count > 1 && !text.is_id) {  // whose label says so was meant rather than others of its type
+        addPosting(phrase.text, {number, fit});
       }
     }
     for (std::size_t i = phrase.first; i < phrase.first + phrase.count; ++i) {
@@ -317,7 +320,7 @@ std::optional<int> HomeWords::rankOf(const Meaning& meaning, std::uint32_t thing
       return;
     }
     const std::uint8_t fit = found->fit;
-    int here = (fit & kOwn) == 0 ? (is_last ? 4 : 3) : is_last ? 2 : 0;
+    int here = (fit & kOwn) == 0 ? (is_last ? 5 : by_other_word ? 4 : 3) : is_last ? 2 : 0;
     if (is_last && (fit & kHead) != 0) {
       here = (fit & (kType | kWhole)) != 0 && !by_other_word ? 0 : 1;
     }

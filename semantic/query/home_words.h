@@ -19,7 +19,7 @@ namespace oikos::semantic {
 /// One thing that all words fit; the less the rank, the more likely it was meant.
 struct Match {
   std::uint32_t thing = 0;
-  int rank = 0;  ///< 0: the last word is its type or its whole name; 1: by another word for its type; … 4: only its furniture fits
+  int rank = 0;  ///< 0: the last word is its type or its whole name; 1: by another word for its type; … 5: only its furniture fits
 };
 
 /// What was meant by some words, one after another.
@@ -76,6 +76,7 @@ class HomeWords {
     bool is_type = false;
     bool is_own = true;  ///< not only its furniture's
     bool is_property = false;
+    bool is_id = false;
   };
   struct StringHash {
     using is_transparent = void;

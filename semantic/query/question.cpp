@@ -18,6 +18,7 @@ void skipRequest(WordCursor& words) {
   if (ahead.take({"can", "could", "would", "will"}) && ahead.take({"you", "anyone", "anybody", "someone", "somebody"})) {
     while (ahead.take({"please", "kindly", "possibly", "quickly", "just"})) {
     }
+    ahead.take({"mind"});
     words = !ahead.empty() && !isSeeing(ahead.front()) ? ahead : words;
   }
 }
@@ -37,6 +38,21 @@ bool takeTrailingWhere(WordCursor& words) {
   return false;
 }
 
+/// "from which spot", "from what position".
+bool takeFromWhichSpot(WordCursor& words) {
+  WordCursor ahead = words;
+  const bool taken =
+      ahead.take({"from", "at"}) && ahead.take({"which", "what"}) && ahead.take({"spot", "position", "pose", "point", "place"});
+  words = taken ? ahead : words;
+  return taken;
+}
+
+/// "on the desk, what is there?"
+bool takeTrailingWhat(WordCursor& words) {
+  return findRelationWords(words.rest()) && words.rest().size() > 4 &&
+         (words.takeAllBack({"what", "is", "there"}) || words.takeAllBack({"what", "do", "you", "see"}));
+}
+
 /// "in which", "on what".
 bool takeWhichOf(WordCursor& words) {
   WordCursor ahead = words;
@@ -50,13 +66,17 @@ bool readKind(QuestionDraft& draft) {
   if (takeTrailingWhere(words)) {
     return draft.finish(QuestionKind::kWhere);
   }
+  if (takeTrailingWhat(words)) {
+    return draft.finish(QuestionKind::kContents);
+  }
   if (words.take({"where", "whereabouts"})) {
     return readWhere(draft);
   }
   if (words.takeAll({"from", "where"})) {
     return readStand(draft);
   }
-  if (words.takeAll({"by", "how", "much"})) {
+  if (words.takeAll({"by", "how", "much"}) || words.takeAll({"by", "how", "many", "degrees"}) ||
+      words.takeAll({"how", "many", "degrees"})) {
     return readHowFar(draft);
   }
   if (words.take({"how"})) {
@@ -65,8 +85,14 @@ bool readKind(QuestionDraft& draft) {
   if (words.take({"when"}) || words.takeAll({"at", "what", "time"}) || words.takeAll({"what", "time"})) {
     return readWhen(draft);
   }
+  if (takeFromWhichSpot(words)) {
+    return readStand(draft);
+  }
   if (takeWhichOf(words)) {
     return readWhichPlace(draft);
+  }
+  if (words.takeAll({"what", "number", "of"})) {
+    return readCount(draft);
   }
   if (words.take({"what", "which"})) {
     return readWhat(draft);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semantic/query/question_kinds.h"
 
+#include "semantic/query/grammar_words.h"
 #include "semantic/query/thing_phrase.h"
 
 namespace oikos::semantic {
@@ -37,7 +38,24 @@ bool takeSearch(WordCursor& words) {
 bool takeWish(WordCursor& words) {
   return words.takeAll({"i", "need"}) || words.takeAll({"i", "want"}) || words.takeAll({"i", "would", "like"}) ||
          words.takeAll({"i", "would", "love"}) || words.takeAll({"can", "i", "have"}) || words.takeAll({"could", "i", "have"}) ||
-         words.takeAll({"may", "i", "have"}) || words.takeAll({"we", "need"});
+         words.takeAll({"may", "i", "have"}) || words.takeAll({"we", "need"}) || words.takeAll({"we", "want"}) ||
+         words.takeAll({"i", "am", "after"}) || words.takeAll({"i", "could", "use"});
+}
+
+/// "over here" is where the speaker is.
+void takeHere(WordCursor& words) {
+  words.takeAllBack({"over", "here"}) || words.takeBack({"here"});
+}
+
+/// "me", "Jonas his".
+void takeReceiver(WordCursor& words) {
+  if (words.take({"me", "us", "him", "her", "them"})) {
+    return;
+  }
+  const Words rest = words.rest();
+  if (rest.size() > 2 && isOneOf(rest[1], {"his", "her", "their"}) && !isFiller(rest[0])) {
+    words.drop(2);
+  }
 }
 
 /// "list the contents of X", "name the things on Y".
@@ -45,6 +63,10 @@ bool readList(QuestionDraft& draft) {
   WordCursor ahead = draft.words;
   if (ahead.take({"everything", "all"})) {
     return draft.finish(QuestionKind::kWhere);
+  }
+  if (ahead.take({"stuff", "things", "items"}) && findRelationWords(ahead.rest())) {
+    draft.words = ahead;
+    return draft.finish(QuestionKind::kContents);
   }
   const bool bare = ahead.startsWith({"contents"}) || ahead.startsWith({"the", "contents"});
   if (!bare && !ahead.take({"list", "name", "enumerate"}) && !ahead.takeAll({"read", "out"}) &&
@@ -74,15 +96,21 @@ bool readCommand(QuestionDraft& draft) {
   if (readList(draft)) {
     return true;
   }
-  if (words.take({"bring", "fetch", "get", "give", "hand", "carry", "deliver", "grab", "pass"})) {
-    words.take({"me", "us", "him", "her"});
+  if (words.take({"bring", "fetch", "get", "give", "hand", "carry", "deliver", "grab", "pass", "bringing", "fetching", "getting", "giving",
+                  "handing", "passing"})) {
+    takeReceiver(words);
+    takeHere(words);
     words.takeBack({"me", "us"}) && words.takeBack({"to", "for"});
     return draft.finish(QuestionKind::kFetch);
+  }
+  if (words.take({"opening"}) || words.takeAll({"how", "to", "open"})) {
+    return draft.finish(QuestionKind::kHowOpen);
   }
   if (takeSearch(words)) {
     return draft.finish(QuestionKind::kWhere);
   }
   if (takeWish(words)) {
+    takeHere(words);
     return draft.finish(QuestionKind::kFetch);
   }
   if (words.takeAll({"history", "of"}) || words.takeAll({"the", "history", "of"}) ||

@@ -31,7 +31,68 @@ bool readCountOfWhole(QuestionDraft& draft, Words noun) {
   return true;
 }
 
-/// After "how many": "X", "X are there", "X are on Y", "X does Y have", "X do we have", "X are open".
+/// After "how is": "X opened", "X held", "X set".
+bool readHowIs(QuestionDraft& draft) {
+  WordCursor& words = draft.words;
+  if (words.takeBack({"opened", "open"})) {
+    return draft.finish(QuestionKind::kHowOpen);
+  }
+  if (words.takeBack({"grasped", "held", "grabbed"})) {
+    return draft.finish(QuestionKind::kHowGrasp);
+  }
+  return words.takeBack({"set"}) && draft.finish(QuestionKind::kSetting);
+}
+
+/// After "how": "cold is X set", "hot is X".
+bool readHowStrong(QuestionDraft& draft) {
+  WordCursor ahead = draft.words;
+  if (!ahead.take({"cold", "cool", "hot", "warm", "high", "low", "strong", "fast"}) || !ahead.takeBe()) {
+    return false;
+  }
+  ahead.takeBack({"set", "turned", "running"}) || ahead.takeAllBack({"set", "to"}) || ahead.takeAllBack({"turned", "up"});
+  draft.words = ahead;
+  return draft.finish(QuestionKind::kSetting);
+}
+
+/// After "how am": "I supposed to open X".
+bool readHowAm(QuestionDraft& draft) {
+  WordCursor ahead = draft.words;
+  if (!ahead.take({"am", "are", "is"}) || !ahead.takeSpeaker()) {
+    return false;
+  }
+  ahead.take({"supposed", "meant", "expected", "going", "best"});
+  if (!ahead.take({"to"})) {
+    return false;
+  }
+  draft.words = ahead;
+  return readHowTo(draft);
+}
+
+/// "open X", "get into X", "get X open"; an ending "ing" as well.
+bool takeOpening(WordCursor& words) {
+  WordCursor ahead = words;
+  if (ahead.take({"get", "getting", "pull"}) && (ahead.takeBack({"open", "opened"}) || ahead.take({"into"}))) {
+    words = ahead;
+    return true;
+  }
+  return words.take({"open", "opening", "close", "closing", "shut", "unlock"});
+}
+
+bool takeGrasping(WordCursor& words) {
+  if (words.takeAll({"get", "hold", "of"}) || words.takeAll({"take", "hold", "of"}) || words.takeAll({"get", "a", "grip", "on"})) {
+    return true;
+  }
+  if (!words.take(
+          {"grasp", "hold", "grab", "grip", "lift", "take", "pick", "picking", "grasping", "holding", "grabbing", "lifting", "handle"})) {
+    return false;
+  }
+  words.takeBack({"up"});
+  words.take({"up"});
+  return true;
+}
+
+}  // namespace
+
 bool readCount(QuestionDraft& draft) {
   WordCursor& words = draft.words;
   words.takeAll({"of", "the"});
@@ -65,60 +126,10 @@ bool readCount(QuestionDraft& draft) {
   return counted;
 }
 
-/// After "how is": "X opened", "X held", "X set".
-bool readHowIs(QuestionDraft& draft) {
-  WordCursor& words = draft.words;
-  if (words.takeBack({"opened", "open"})) {
-    return draft.finish(QuestionKind::kHowOpen);
-  }
-  if (words.takeBack({"grasped", "held", "grabbed"})) {
-    return draft.finish(QuestionKind::kHowGrasp);
-  }
-  return words.takeBack({"set"}) && draft.finish(QuestionKind::kSetting);
-}
-
-/// After "how am": "I supposed to open X".
-bool readHowAm(QuestionDraft& draft) {
-  WordCursor ahead = draft.words;
-  if (!ahead.take({"am", "are", "is"}) || !ahead.takeSpeaker()) {
-    return false;
-  }
-  ahead.take({"supposed", "meant", "expected", "going", "best"});
-  if (!ahead.take({"to"})) {
-    return false;
-  }
-  draft.words = ahead;
-  return readHowTo(draft);
-}
-
-/// "open X", "get into X", "get X open"; an ending "ing" as well.
-bool takeOpening(WordCursor& words) {
-  WordCursor ahead = words;
-  if (ahead.take({"get", "pull"}) && (ahead.takeBack({"open", "opened"}) || ahead.take({"into"}))) {
-    words = ahead;
-    return true;
-  }
-  return words.take({"open", "opening", "close", "closing", "shut", "unlock"});
-}
-
-bool takeGrasping(WordCursor& words) {
-  if (words.takeAll({"get", "hold", "of"}) || words.takeAll({"take", "hold", "of"}) || words.takeAll({"get", "a", "grip", "on"})) {
-    return true;
-  }
-  if (!words.take(
-          {"grasp", "hold", "grab", "grip", "lift", "take", "pick", "picking", "grasping", "holding", "grabbing", "lifting", "handle"})) {
-    return false;
-  }
-  words.takeBack({"up"});
-  words.take({"up"});
-  return true;
-}
-
-}  // namespace
-
 bool readHowTo(QuestionDraft& draft) {
   WordCursor& words = draft.words;
-  words.takeSpeaker();
+  words.takeSpeaker() || words.takeAll({"your"});
+  words.take({"gripper", "arm", "hand"});
   words.take({"best", "have"});
   words.take({"to"});
   if (takeOpening(words)) {
@@ -167,6 +178,9 @@ bool readHow(QuestionDraft& draft) {
   }
   if (words.take({"far", "wide"})) {
     return readHowFar(draft);
+  }
+  if (readHowStrong(draft)) {
+    return true;
   }
   if (readHowAm(draft)) {
     return true;

@@ -32,7 +32,7 @@ bool takeWay(WordCursor& words) {
   WordCursor ahead = words;
   ahead.take({"the", "a"});
   ahead.take({"best", "right", "proper", "easiest", "good", "correct"});
-  const bool taken = ahead.take({"way"}) && ahead.take({"to", "for", "of"});
+  const bool taken = ahead.take({"way", "trick", "procedure", "method", "steps", "secret"}) && ahead.take({"to", "for", "of"});
   words = taken ? ahead : words;
   return taken;
 }

@@ -204,8 +204,9 @@ bool skipHelpers(WordCursor& words) {
 bool readPredicate(QuestionDraft& draft) {
   WordCursor& words = draft.words;
   words.take({"of"});
-  const std::size_t verb = words.find({"is",    "are",  "was", "were", "lies", "stands", "lie", "stand", "sits",  "sit",
-                                       "hangs", "hang", "do",  "does", "did",  "have",   "has", "can",   "holds", "contains"});
+  const std::size_t verb =
+      words.find({"is", "are",  "was", "were", "lies", "stands", "lie",   "stand",    "sits",  "sit",  "hangs", "hang",
+                  "do", "does", "did", "have", "has",  "can",    "holds", "contains", "lives", "live", "stays", "hides"});
   if (verb == words.rest().size()) {
     return false;
   }
@@ -241,11 +242,41 @@ bool readNamedThing(QuestionDraft& draft) {
   return false;
 }
 
+/// "do I have to do to", "must I do to".
+bool takeWhatToDo(WordCursor& words) {
+  WordCursor ahead = words;
+  if (!ahead.takeModal() || !ahead.takeSpeaker()) {
+    return false;
+  }
+  ahead.takeAll({"have", "to"}) || ahead.takeAll({"need", "to"});
+  const bool taken = ahead.takeAll({"do", "to"}) || ahead.takeAll({"do", "for"});
+  words = taken ? ahead : words;
+  return taken;
+}
+
+/// "belong to Y": what is Y's.
+bool readBelongs(QuestionDraft& draft) {
+  const std::size_t verb = draft.words.find({"belong", "belongs"});
+  const Words noun = draft.words.rest().first(verb);
+  WordCursor ahead = draft.words;
+  ahead.drop(std::min(verb + 1, ahead.rest().size()));
+  if (!ahead.take({"to"}) || ahead.empty()) {
+    return false;
+  }
+  draft.question.kind = QuestionKind::kWhere;
+  draft.question.thing = readThingPhrase(isOneOf(noun.empty() ? "things" : noun.front(), {"things", "objects", "items"}) ? Words() : noun);
+  draft.question.thing.whole.push_back(readThingPhrase(ahead.rest()));
+  return true;
+}
+
 }  // namespace
 
 bool readWhat(QuestionDraft& draft) {
   WordCursor& words = draft.words;
   words.take({"else", "exactly", "all"});
+  if (takeWhatToDo(words)) {
+    return readHowTo(draft);
+  }
   if (readNamedThing(draft) || readContentsOf(draft) || readChanges(draft) || readUses(draft) || readSettings(draft)) {
     return true;
   }
@@ -253,7 +284,7 @@ bool readWhat(QuestionDraft& draft) {
     words.takeBack({"have"});
     return draft.finish(QuestionKind::kHistory);
   }
-  return readProperty(draft) || readPredicate(draft);
+  return readProperty(draft) || readBelongs(draft) || readPredicate(draft);
 }
 
 }  // namespace oikos::semantic

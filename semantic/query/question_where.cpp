@@ -37,7 +37,7 @@ bool readStandPlace(QuestionDraft& draft) {
   if (words.take({"position", "place", "put", "park", "move", "drive"})) {
     words.take({"the", "my", "your"});
     words.take({"base", "robot", "camera", "myself", "yourself", "itself"});
-  } else if (!words.take({"stand", "go", "be", "stay", "wait"})) {
+  } else if (!words.takeAll({"be", "standing"}) && !words.take({"stand", "go", "be", "stay", "wait"})) {
     return false;
   }
   const std::size_t before = words.rest().size();
@@ -82,6 +82,15 @@ void takeWhereTail(WordCursor& words) {
   }
 }
 
+/// "in the flat" says nothing about where.
+bool takeInTheHome(WordCursor& words) {
+  WordCursor ahead = words;
+  const bool taken = ahead.take({"in", "inside"}) && ahead.take({"the", "this", "our", "my"}) &&
+                     ahead.take({"house", "home", "flat", "apartment", "place"});
+  words = taken ? ahead : words;
+  return taken;
+}
+
 /// "has X been these days": all of its places, or the last where none is recorded.
 bool readBeen(QuestionDraft& draft) {
   WordCursor ahead = draft.words;
@@ -123,7 +132,7 @@ bool readStandGoal(QuestionDraft& draft) {
 bool readWhere(QuestionDraft& draft) {
   WordCursor& words = draft.words;
   (void)takeAdverbs(words);
-  words.takeAll({"on", "earth"}) || words.takeAll({"the", "heck"}) || words.takeAll({"the", "hell"});
+  words.takeAll({"on", "earth"}) || words.takeAll({"the", "heck"}) || words.takeAll({"the", "hell"}) || takeInTheHome(words);
   if (words.takeAll({"have", "you"}) || words.takeAll({"did", "you"}) || words.takeAll({"has", "anyone"})) {
     words.take({"last", "ever"});
     words.takeIf(isSeeing) || words.take({"put", "leave", "left", "got"});
@@ -151,7 +160,7 @@ bool readWhere(QuestionDraft& draft) {
   if (modal && words.takeBack({"go", "live", "stay"})) {
     return draft.finish(of_the_past ? QuestionKind::kWhere : QuestionKind::kUsualPlace);
   }
-  words.takeBe() || words.take({"would", "could", "should"});
+  words.takeBe() || words.take({"would", "could", "should", "stays", "lives", "lies", "stands", "sits", "hides", "hangs"});
   takeWhereTail(words);
   if (words.takeBack({"usually", "normally", "supposed", "meant"}) || takeWord(draft, {"usually", "normally"})) {
     words.takeBack({"kept", "stored"});

@@ -199,6 +199,15 @@ bool readDoes(QuestionDraft& draft) {
     words = before_state;
     return finishState(draft, std::move(state));
   }
+  if (const std::size_t been = words.find({"been"}); been > 0 && been + 2 < words.rest().size() &&
+                                                     isOneOf(words.rest()[been + 1], {"left", "put", "placed", "laid", "dropped"}) &&
+                                                     findRelationWords(words.rest().subspan(been + 2))) {
+    draft.edited.assign(words.rest().begin(), words.rest().end());
+    draft.edited.erase(draft.edited.begin() + static_cast<std::ptrdiff_t>(been),
+                       draft.edited.begin() + static_cast<std::ptrdiff_t>(been + 2));
+    words = WordCursor(draft.edited);
+    return finishIsAt(draft);
+  }
   const std::size_t verb = words.find({"contain", "have", "hold", "got"});
   if (verb == 0 || verb + 1 >= words.rest().size()) {
     return false;
@@ -221,6 +230,10 @@ bool readYesNo(QuestionDraft& draft) {
   }
   if (!words.empty() && isOneOf(words.front(), {"any", "anything", "something"})) {
     return readAnyChange(draft) || finishIsThere(draft);
+  }
+  if (words.startsWith({"got", "any"}) || words.startsWith({"got", "some"})) {
+    words.drop();
+    return finishIsThere(draft);
   }
   bool of_speaker = false;
   if (takeActor(words, of_speaker)) {
@@ -249,6 +262,9 @@ bool readSentence(QuestionDraft& draft) {
     }
     draft.is_statement = false;
     return false;
+  }
+  if (readEitherState(draft)) {  // "oven on or off?"
+    return true;
   }
   WordCursor before_state = words;
   std::string state = takeStateBack(before_state);

@@ -77,6 +77,15 @@ void keep(Lookup& lookup, const HomeIndex& index, const Things& things) {
                 [&](const Match& match) { return std::find(things.begin(), things.end(), &index.thing(match.thing)) == things.end(); });
 }
 
+/// "the top kitchen drawer" is one of the "kitchen drawers".
+void preferParts(const HomeIndex& index, Lookup& lookup) {
+  constexpr int kOwnNoun = 4;  // the worst rank of a thing that the last word names itself
+  const auto is_part = [&](const Match& match) { return index.thing(match.thing).kind == ThingKind::kPart && match.rank <= kOwnNoun; };
+  if (std::any_of(lookup.matches.begin(), lookup.matches.end(), is_part)) {
+    std::erase_if(lookup.matches, [&](const Match& match) { return index.thing(match.thing).kind == ThingKind::kLargeObject; });
+  }
+}
+
 }  // namespace
 
 /// The drawers of a chest of drawers are not the chest.
@@ -104,6 +113,9 @@ Lookup Resolver::lookUp(const ThingPhrase& phrase) const {
   Lookup lookup = lookUpNoun(phrase);
   if (!lookup.unknown.empty() || lookup.matches.empty()) {
     return flat.unknown.empty() ? flat : lookup;
+  }
+  if (phrase.ordinal) {
+    preferParts(index_, lookup);
   }
   keep(lookup, index_, pick(phrase, bestOf(lookup)));
   return lookup;

@@ -20,14 +20,15 @@ struct ShortForm {
 };
 
 constexpr auto kShortForms = std::to_array<ShortForm>({
-    {"arent", "are", "not"},     {"couldnt", "could", "not"}, {"didnt", "did", "not"},      {"doesnt", "does", "not"},
-    {"dont", "do", "not"},       {"hadnt", "had", "not"},     {"hasnt", "has", "not"},      {"havent", "have", "not"},
-    {"heres", "here", "is"},     {"hows", "how", "is"},       {"id", "i", "would"},         {"ill", "i", "will"},
-    {"im", "i", "am"},           {"isnt", "is", "not"},       {"ive", "i", "have"},         {"shouldnt", "should", "not"},
-    {"thats", "that", "is"},     {"theres", "there", "is"},   {"theyre", "they", "are"},    {"wasnt", "was", "not"},
-    {"werent", "were", "not"},   {"weve", "we", "have"},      {"whatd", "what", "did"},     {"whatre", "what", "are"},
-    {"whats", "what", "is"},     {"whatve", "what", "have"},  {"whens", "when", "is"},      {"whered", "where", "did"},
-    {"wherere", "where", "are"}, {"wheres", "where", "is"},   {"whereve", "where", "have"}, {"whichs", "which", "is"},
+    {"arent", "are", "not"},     {"couldnt", "could", "not"}, {"didnt", "did", "not"},       {"doesnt", "does", "not"},
+    {"dont", "do", "not"},       {"gimme", "give", "me"},     {"gonna", "going", "to"},      {"gotta", "have", "to"},
+    {"hadnt", "had", "not"},     {"hasnt", "has", "not"},     {"havent", "have", "not"},     {"heres", "here", "is"},
+    {"hows", "how", "is"},       {"id", "i", "would"},        {"ill", "i", "will"},          {"im", "i", "am"},
+    {"isnt", "is", "not"},       {"ive", "i", "have"},        {"shouldnt", "should", "not"}, {"thats", "that", "is"},
+    {"theres", "there", "is"},   {"theyre", "they", "are"},   {"wanna", "want", "to"},       {"wasnt", "was", "not"},
+    {"werent", "were", "not"},   {"weve", "we", "have"},      {"whatd", "what", "did"},      {"whatre", "what", "are"},
+    {"whats", "what", "is"},     {"whatve", "what", "have"},  {"whens", "when", "is"},       {"whered", "where", "did"},
+    {"wherere", "where", "are"}, {"wheres", "where", "is"},   {"whereve", "where", "have"},  {"whichs", "which", "is"},
     {"wont", "will", "not"},     {"wouldnt", "would", "not"}, {"youve", "you", "have"},
 });
 static_assert(std::is_sorted(kShortForms.begin(), kShortForms.end(), [](const auto& a, const auto& b) { return a.said < b.said; }));

@@ -27,7 +27,7 @@ bool changesMeaning(std::string_view word) {
 }
 
 bool isOfSpeaker(const std::vector<std::string>& clause) {
-  return isOneOf(clause.front(), {"i", "we"});
+  return isOneOf(clause.front(), {"i", "we", "me"});
 }
 
 bool hasPronoun(const std::vector<std::string>& clause) {
@@ -52,6 +52,19 @@ std::vector<std::string> spelledOut(const std::vector<std::string>& clause, cons
     }
   }
   return words;
+}
+
+/// "what is the oven temperature", "thermostat": of knobs the setting is asked for, not the place.
+void askForSetting(const HomeIndex& index, Question& question) {
+  const ThingPhrase& thing = question.thing;
+  if (question.kind != QuestionKind::kWhere || thing.nearest || !thing.places.empty()) {
+    return;
+  }
+  const Resolution meant = Resolver(index, index, std::nullopt).resolve(thing);
+  if (!meant.things.empty() &&
+      std::all_of(meant.things.begin(), meant.things.end(), [](const Thing* one) { return one->kind == ThingKind::kKnob; })) {
+    question.kind = QuestionKind::kSetting;
+  }
 }
 
 }  // namespace
@@ -86,6 +99,9 @@ ParsedQuestion Utterance::parse(const Clause& clause) const {
   dropDoubt(words, tagged_);
   ParsedQuestion parsed = parseQuestion(words);
   if (parsed.question) {
+    if (words.front() == "what") {
+      askForSetting(index_, *parsed.question);
+    }
     return parsed;
   }
   Question question;
@@ -96,6 +112,7 @@ ParsedQuestion Utterance::parse(const Clause& clause) const {
   const Resolution meant = Resolver(index_, index_, std::nullopt).resolve(question.thing);
   if (meant.known && meant.corrected.empty() && !meant.things.empty()) {
     parsed.question = std::move(question);
+    askForSetting(index_, *parsed.question);
   }
   return parsed;
 }

@@ -47,6 +47,8 @@ void addWithApostrophe(std::vector<std::string>& words, std::string word, std::s
     if (owner) {
       words.emplace_back(is_verb ? "is" : "'s");
     }
+  } else if (word == "we" && after == "re") {  // "were" is another word
+    words.insert(words.end(), {"we", "are"});
   } else {
     words.push_back(word + after);
   }

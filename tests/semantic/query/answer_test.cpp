@@ -91,7 +91,7 @@ TEST(Answer, AboutThePapersHouse) {
                   "and the fridge are in the kitchen"},
                  {"how many cups are there in the kitchen", kAnswered, {"red-cup", "blue-cup"}, "2: "},
                  {"how many cups are in the bathroom", kAnswered, {}, "None in the bathroom."},
-                 {"is there a bowl in the bathroom", kAnswered, {}, "Not that I know: the white bowl on"},
+                 {"is there a bowl in the bathroom", kAnswered, {}, "Not that I know: the white bowl is on"},
                  {"is the blue cup on the table", kAnswered, {"blue-cup"}, "Yes"},
                  {"is the fridge open", kAnswered, {"fridge"}, "No: the fridge is closed."},
                  {"is the table open", kNothing, {}, "no way to open the table"},

@@ -43,6 +43,25 @@ std::vector<std::string> idsOf(const HomeIndex& index, const Words& words) {
   return ids;
 }
 
+LargeObject drawerUnit(const std::string& id, const std::string& label) {
+  LargeObject unit;
+  unit.id = {id};
+  unit.type = "drawer_unit";
+  unit.label = label;
+  return unit;
+}
+
+/// "chest of drawers" is another word for all drawer units, and the label of one of them.
+TEST(HomeIndexNames, ALabelOfSeveralWordsMeansTheOneThatIsCalledSo) {
+  Home home = manyCups(1, 0);
+  home.rooms.front().objects.emplace_back(drawerUnit("kitchen-drawers", "kitchen drawers"));
+  home.rooms.front().objects.emplace_back(drawerUnit("chest", "chest of drawers"));
+  home.rooms.front().objects.emplace_back(drawerUnit("linen-chest-drawers", "linen box"));
+  EXPECT_EQ(idsOf(HomeIndex(home), {"chest of drawers"}), (Words{"chest"}));
+  home.rooms.front().objects.erase(home.rooms.front().objects.begin() + 2);
+  EXPECT_EQ(idsOf(HomeIndex(home), {"chest of drawers"}), (Words{"kitchen-drawers", "linen-chest-drawers"}));
+}
+
 class PapersIndex : public testing::Test {
  protected:
   Home home_ = readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml").home;

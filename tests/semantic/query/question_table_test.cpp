@@ -43,19 +43,17 @@ TEST(QuestionTable, TalkOfSomeoneWhoHasNotSeenTheParser) {
   }
 }
 
-/// Its author had not seen the parser, and nothing was mended for it: what strangers find. Mended for, it is one of the tables above.
-TEST(QuestionTable, TalkThatNothingWasMendedFor) {
-  constexpr std::size_t kReached = 68;
-  constexpr std::size_t kConfidentWrong = 2;
+/// Its author had not seen the parser either: 68 before it was mended for, with two confident wrong answers.
+TEST(QuestionTable, TalkOfAnotherStranger) {
+  constexpr std::size_t kReached = 98;
   const std::vector<test::TableRow> table = test::readTable(kSource / "tests/data/questions/strangers.json");
   ASSERT_EQ(table.size(), 100U);
   const test::TableScore score = test::score(table, kSource, false);
   std::printf("strangers: %zu of %zu right, %zu confident wrong answers\n", score.right, table.size(), score.confident.size());
-  for (const std::string& failure : score.confident) {
-    std::printf("  %s\n", failure.c_str());
-  }
   EXPECT_GE(score.right, kReached);
-  EXPECT_LE(score.confident.size(), kConfidentWrong);
+  for (const std::string& failure : score.confident) {
+    ADD_FAILURE() << failure;
+  }
 }
 
 }  // namespace
