@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "core/base/error.h"
@@ -49,12 +50,48 @@ bool isPlural(const Thing& thing) {
   return singularOf(last) != last && std::find(singulars.begin(), singulars.end(), last) == singulars.end();
 }
 
+std::vector<std::string> countedOnce(const std::vector<std::string>& texts) {
+  std::vector<std::string> counted;
+  for (auto text = texts.begin(); text != texts.end(); ++text) {
+    if (std::find(texts.begin(), text, *text) == text) {
+      const auto count = std::count(text, texts.end(), *text);
+      counted.push_back(*text + (count > 1 ? " (" + std::to_string(count) + " of them)" : ""));
+    }
+  }
+  return counted;
+}
+
+namespace {
+
+/// Where another piece of the room is called the same: what stands nearest of those with another name. Empty: no other is called so.
+std::string neighbourText(const Thing& thing) {
+  const std::string name = thing.name();
+  bool is_unique = true;
+  std::string nearest;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const LargeObject& other : thing.room->objects) {
+    if (&other == thing.object) {
+      continue;
+    }
+    const Thing candidate{ThingKind::kLargeObject, thing.room, &other, nullptr, nullptr, nullptr};
+    if (candidate.name() == name) {
+      is_unique = false;
+    } else if (const double distance_m = distanceBetween(thing, candidate); distance_m < nearest_m) {
+      nearest_m = distance_m;
+      nearest = theName(candidate);
+    }
+  }
+  return is_unique || nearest.empty() ? "" : ", by " + nearest;
+}
+
+}  // namespace
+
 std::string placeText(const Thing& thing) {
   if (thing.kind == ThingKind::kRoom) {
     return "a room of the home";
   }
   if (thing.kind != ThingKind::kSmallObject) {
-    return "in the " + thing.room->name;
+    return "in the " + thing.room->name + (thing.kind == ThingKind::kLargeObject ? neighbourText(thing) : "");
   }
   const std::string in_room = "in the " + thing.room->name;
   if (thing.object == nullptr) {
