@@ -105,13 +105,11 @@ std::vector<Term> builtInSurplus() {
        {"whether", "check if", "check whether", "see if", "see whether", "find out if", "find out whether", "look if", "look whether",
         "make sure that", "find out", "have a look if", "have a look whether", "take a look if", "take a look whether"}},
       {"or_not", {"or what", "or something", "or so", "do not you", "i guess", "i suppose", "i think", "i believe", "i hope"}},
-      {"exactly", {"precisely",       "in total",      "surely",           "altogether",
-                   "all together",    "in all",        "all in all",       "at all",
-                   "by any chance",   "by chance",     "actually",         "though",
-                   "perhaps",         "maybe",         "for breakfast",    "for lunch",
-                   "for dinner",      "for supper",    "how does it work", "how does that work",
-                   "which one is it", "be a dear and", "be a love and",    "be so kind and",
-                   "be so good and"}},
+      {"exactly", {"precisely",        "in total",      "surely",        "altogether",     "all together",    "in all",
+                   "all in all",       "at all",        "by any chance", "by chance",      "actually",        "though",
+                   "perhaps",          "maybe",         "for breakfast", "for lunch",      "for dinner",      "for supper",
+                   "how does it work", "if so what",    "if so which",   "and if so what", "and if so which", "how does that work",
+                   "which one is it",  "be a dear and", "be a love and", "be so kind and", "be so good and"}},
       {"correct", {"yes", "is that right", "is that correct", "am i right", "eh", "huh"}}};
 }
 
@@ -193,7 +191,7 @@ Vocabulary builtInVocabulary() {
        {"closet", {"wardrobe"}},
        {"drawer_unit", {"chest of drawers", "dresser"}},
        {"drawer", {}},
-       {"door", {}},
+       {"door", {"room door", "interior door"}},
        {"fridge", {"refrigerator", "icebox"}},
        {"freezer", {}},
        {"oven", {}},

@@ -32,27 +32,6 @@ std::vector<std::string> singular(std::vector<std::string> words) {
   return words;
 }
 
-/// At most one letter added, left out, changed, or two neighbours swapped. Few mistype the first letter.
-bool isOneSlipAway(std::string_view a, std::string_view b) {
-  if (a.empty() || b.empty() || (a[0] != b[0] && (a.size() < 2 || b.size() < 2 || a[0] != b[1] || a[1] != b[0]))) {
-    return false;
-  }
-  if (a.size() > b.size()) {
-    std::swap(a, b);
-  }
-  if (b.size() - a.size() > 1) {
-    return false;
-  }
-  const std::size_t start = static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin());
-  a.remove_prefix(start);
-  b.remove_prefix(start);
-  if (a.size() != b.size()) {
-    return a == b.substr(1);
-  }
-  const bool swapped = a.size() >= 2 && a[0] == b[1] && a[1] == b[0] && a.substr(2) == b.substr(2);
-  return a.empty() || a.substr(1) == b.substr(1) || swapped;
-}
-
 bool isSentenceWord(const std::string& word) {
   constexpr std::array<std::string_view, 10> words{"of", "on", "in", "with", "and", "for", "to", "at", "under", "or"};
   return std::find(words.begin(), words.end(), word) != words.end();

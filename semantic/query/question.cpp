@@ -50,7 +50,8 @@ bool takeFromWhichSpot(WordCursor& words) {
 /// "on the desk, what is there?"
 bool takeTrailingWhat(WordCursor& words) {
   return findRelationWords(words.rest()) && words.rest().size() > 4 &&
-         (words.takeAllBack({"what", "is", "there"}) || words.takeAllBack({"what", "do", "you", "see"}));
+         (words.takeAllBack({"what", "is", "there"}) || words.takeAllBack({"what", "is", "in", "there"}) ||
+          words.takeAllBack({"what", "do", "you", "see"}));
 }
 
 /// "in which", "on what".

@@ -61,6 +61,9 @@ void takeReceiver(WordCursor& words) {
 /// "list the contents of X", "name the things on Y".
 bool readList(QuestionDraft& draft) {
   WordCursor ahead = draft.words;
+  if (ahead.startsWith({"everything"}) && readBelongs(draft)) {
+    return true;
+  }
   if (ahead.take({"everything", "all"})) {
     return draft.finish(QuestionKind::kWhere);
   }

@@ -158,7 +158,7 @@ bool readHowFar(QuestionDraft& draft) {
     words.takeBack({"away"});
     return draft.finish(QuestionKind::kDistance);
   }
-  while (words.takeBack({"open", "opened", "out", "pulled", "ajar", "closed", "shut", "turned"})) {
+  while (words.takeBack({"open", "opened", "out", "pulled", "ajar", "closed", "shut", "turned", "stands", "standing"})) {
   }
   return draft.finish(QuestionKind::kHowFar);
 }
@@ -204,14 +204,14 @@ bool readWhen(QuestionDraft& draft) {
   words.take({"have", "had", "has"});
   words.take({"last"}) || words.takeAll({"most", "recently"});
   if (words.takeIf(isSeeing)) {
-    words.takeBack({"last"}) || words.takeBack({"most", "recently"});
+    words.takeBack({"last"}) || words.takeBack({"most", "recently"}) || words.takeAllBack({"last", "time"});
     return draft.finish(QuestionKind::kLastSeen);
   }
   const std::string first = words.empty() ? "" : words.front();
   if (words.take({"move", "open", "close", "change", "moved", "opened", "closed", "changed", "use", "used"})) {
     return draft.finishChange(first);
   }
-  words.takeBack({"last"});
+  words.takeBack({"last"}) || words.takeAllBack({"last", "time"});
   if (!words.empty() && isSeeing(words.back())) {
     words.dropBack();
     words.takeBack({"last"});

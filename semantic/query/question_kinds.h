@@ -21,6 +21,8 @@ namespace oikos::semantic {
 /// After "how do": "I open X", "I pick up X".
 /// After "how many": "X", "X are there", "X are on Y", "X does Y have", "X do we have", "X are open".
 [[nodiscard]] bool readCount(QuestionDraft& draft);
+/// "X that belongs to Y".
+[[nodiscard]] bool readBelongs(QuestionDraft& draft);
 [[nodiscard]] bool readHowTo(QuestionDraft& draft);
 /// What is wanted of a place to stand: "to reach X", "so that the camera sees X", "if I want to open X".
 [[nodiscard]] bool readStandGoal(QuestionDraft& draft);

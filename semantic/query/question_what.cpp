@@ -254,7 +254,15 @@ bool takeWhatToDo(WordCursor& words) {
   return taken;
 }
 
-/// "belong to Y": what is Y's.
+/// Anything: "things", "everything that".
+bool namesAll(Words noun) {
+  return std::all_of(noun.begin(), noun.end(), [](const std::string& word) {
+    return isOneOf(word, {"things", "objects", "items", "everything", "all", "that", "which", "the", "of"});
+  });
+}
+
+}  // namespace
+
 bool readBelongs(QuestionDraft& draft) {
   const std::size_t verb = draft.words.find({"belong", "belongs"});
   const Words noun = draft.words.rest().first(verb);
@@ -264,12 +272,10 @@ bool readBelongs(QuestionDraft& draft) {
     return false;
   }
   draft.question.kind = QuestionKind::kWhere;
-  draft.question.thing = readThingPhrase(isOneOf(noun.empty() ? "things" : noun.front(), {"things", "objects", "items"}) ? Words() : noun);
+  draft.question.thing = readThingPhrase(namesAll(noun) ? Words() : noun);
   draft.question.thing.whole.push_back(readThingPhrase(ahead.rest()));
   return true;
 }
-
-}  // namespace
 
 bool readWhat(QuestionDraft& draft) {
   WordCursor& words = draft.words;

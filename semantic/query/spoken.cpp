@@ -38,6 +38,14 @@ const ShortForm* findShortForm(std::string_view word) {
   return found != kShortForms.end() && found->said == word ? &*found : nullptr;
 }
 
+/// Of what is typed in a hurry; empty: it is none.
+std::string_view fullWordOf(std::string_view word) {
+  constexpr auto forms = std::to_array<std::pair<std::string_view, std::string_view>>(
+      {{"r", "are"}, {"u", "you"}, {"ur", "your"}, {"pls", "please"}, {"plz", "please"}, {"thx", "thanks"}});
+  const auto found = std::find_if(forms.begin(), forms.end(), [&](const auto& form) { return form.first == word; });
+  return found == forms.end() ? std::string_view() : found->second;
+}
+
 bool isAuxiliary(std::string_view word) {
   return isOneOf(word, {"is", "are", "was", "were", "do", "does", "did", "have", "has", "can", "could", "will", "would", "should"});
 }
@@ -72,7 +80,9 @@ std::size_t breakAt(std::string_view text, std::size_t i) {
 
 std::vector<std::string> spokenOut(std::vector<std::string> words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "'s" && standsForIs(Words(words).subspan(i + 1))) {
+    if (const auto full = fullWordOf(words[i]); !full.empty()) {
+      words[i] = full;
+    } else if (words[i] == "'s" && standsForIs(Words(words).subspan(i + 1))) {
       words[i] = "is";
     } else if (const ShortForm* form = findShortForm(words[i]); form != nullptr && isMeantShort(*form, Words(words).subspan(i + 1))) {
       words[i] = form->first;

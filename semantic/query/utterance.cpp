@@ -2,6 +2,7 @@
 #include "semantic/query/utterance.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -54,6 +55,16 @@ std::vector<std::string> spelledOut(const std::vector<std::string>& clause, cons
   return words;
 }
 
+/// "whre": as long as nothing is called so.
+void mendQuestionWord(const HomeWords& home, std::string& word) {
+  constexpr std::array<std::string_view, 4> asking{"where", "what", "which", "when"};
+  if (word.size() < 4 || isGrammarWord(word) || home.knows(word)) {
+    return;
+  }
+  const auto meant = std::find_if(asking.begin(), asking.end(), [&](std::string_view one) { return isOneSlipAway(word, one); });
+  word = meant == asking.end() ? word : std::string(*meant);
+}
+
 /// "what is the oven temperature", "thermostat": of knobs the setting is asked for, not the place.
 void askForSetting(const HomeIndex& index, Question& question) {
   const ThingPhrase& thing = question.thing;
@@ -72,7 +83,10 @@ void askForSetting(const HomeIndex& index, Question& question) {
 Utterance::Utterance(const HomeIndex& index, std::string_view text) : index_(index) {
   const HomeWords& home = index.words();
   for (const std::string_view part : clausesOf(text)) {
-    const Clause said = home.joinNames(spokenOut(wordsOf(part)));
+    Clause said = home.joinNames(spokenOut(wordsOf(part)));
+    if (!said.empty()) {
+      mendQuestionWord(home, said.front());
+    }
     words_ += said.size();
     first_word_ = first_word_.empty() && !said.empty() ? said.front() : first_word_;
     if (words_ > kMostWords) {
@@ -158,6 +172,10 @@ bool Utterance::isIdleRemark(const Clause& clause, bool before_question) const {
   const auto matters = [&](const std::string& word) {
     return changesMeaning(word) || (!isGrammarWord(word) && index_.words().knows(word));
   };
+  const bool about_it = !before_question && clause.size() > 2 && isOneOf(clause[0], {"it", "this", "that"}) && !isGrammarWord(clause[1]);
+  if (about_it) {  // "it smells"
+    return std::none_of(clause.begin(), clause.end(), matters);
+  }
   return isOfSpeaker(clause) && (before_question || std::none_of(clause.begin(), clause.end(), matters));
 }
 

@@ -88,6 +88,26 @@ std::vector<std::string> wordsOf(std::string_view sentence) {
   return words;
 }
 
+bool isOneSlipAway(std::string_view a, std::string_view b) {
+  if (a.empty() || b.empty() || (a[0] != b[0] && (a.size() < 2 || b.size() < 2 || a[0] != b[1] || a[1] != b[0]))) {
+    return false;
+  }
+  if (a.size() > b.size()) {
+    std::swap(a, b);
+  }
+  if (b.size() - a.size() > 1) {
+    return false;
+  }
+  const std::size_t start = static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin());
+  a.remove_prefix(start);
+  b.remove_prefix(start);
+  if (a.size() != b.size()) {
+    return a == b.substr(1);
+  }
+  const bool swapped = a.size() >= 2 && a[0] == b[1] && a[1] == b[0] && a.substr(2) == b.substr(2);
+  return a.empty() || a.substr(1) == b.substr(1) || swapped;
+}
+
 std::string singularOf(const std::string& word) {
   std::string singular = word;
   if (word.size() < 4 || !word.ends_with('s') || word.ends_with("ss") || word.ends_with("us")) {

@@ -15,4 +15,7 @@ constexpr std::size_t kMostWords = 64;
 /// The singular of an English noun by its ending ("dishes" is "dish", "knives" is "knife", "glasses" is "glass"); other words as they are.
 [[nodiscard]] std::string singularOf(const std::string& word);
 
+/// At most one letter added, left out, changed, or two neighbours swapped. Few mistype the first letter.
+[[nodiscard]] bool isOneSlipAway(std::string_view a, std::string_view b);
+
 }  // namespace oikos::semantic
