@@ -18,6 +18,7 @@
 #include "core/model/mesh_file.h"
 #include "core/model/urdf_model.h"
 #include "semantic/model/home_models.h"
+#include "semantic/query/thing.h"
 #include "tools/command.h"
 #include "tools/model_commands.h"
 #include "tools/shaped_piece.h"
@@ -230,7 +231,8 @@ void checkUsage(const ImportOptions& options) {
 /// What the vocabulary calls it.
 std::string usualType(const std::string& kind) {
   const semantic::Vocabulary vocabulary = semantic::builtInVocabulary();
-  const semantic::Term* const term = vocabulary.find(semantic::TermKind::kObjectType, kind);
+  const semantic::Term* term = vocabulary.find(semantic::TermKind::kObjectType, kind);
+  term = term == nullptr ? vocabulary.find(semantic::TermKind::kObjectType, semantic::spaced(kind)) : term;  // "room_door"
   return term == nullptr ? kind : term->name;
 }
 

@@ -80,6 +80,11 @@ TEST(ModelImport, PrintsAnElementThatAHomeTakes) {
   EXPECT_NE(check.out.find("0 errors, 0 warnings"), std::string::npos) << check.out;
 }
 
+TEST(ModelImport, ARoomDoorIsADoor) {
+  const ProcessResult door = runOikos({"model", "import", "--shape", "room_door", "--id", "bath-door"});
+  EXPECT_TRUE(door.out.starts_with("<largeArticulatedObject id=\"bath-door\" type=\"door\"")) << door.out;
+}
+
 TEST(ModelImport, ASmallObjectIsPrintedAsOne) {
   const ProcessResult cup =
       runOikos({"model", "import", "--shape", "cup height_m=0.12", "--id", "mug", "--parent", "desk", "--at", "0.1 0.2 0.74 0 0 0"});
