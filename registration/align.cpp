@@ -23,6 +23,7 @@ constexpr double kLongestStep_m = 0.15;
 constexpr double kLongestStep_rad = 0.15;
 constexpr double kSmallStep = 2e-4;  ///< m, and rad
 constexpr double kNearStep = 0.01;   ///< m, and rad: about a pixel
+constexpr double kWithinAPixel = 0.002;
 constexpr int kStepsOfALook = 3;
 constexpr double kTurnLever_m = 0.5;  ///< a radian counts as much as half a metre
 
@@ -44,11 +45,13 @@ class Aligner {
         return false;
       }
       takeStep();
+      const bool is_within_a_pixel = last_step_m_ < kWithinAPixel;  // another picture would pair the same
       settled_ = last_step_m_ < kSmallStep;
       for (int k = 0; k < kStepsOfALook && last_step_m_ >= kSmallStep && last_step_m_ < kNearStep; ++k) {
         followPairs();
         takeStep();
       }
+      settled_ = settled_ || (is_within_a_pixel && last_step_m_ < kSmallStep);
       ++iterations_;
     }
     return true;
@@ -300,9 +303,12 @@ AlignResult align(Motion& motion, const Scan& scan, const AlignConfig& config) {
   const std::vector<double> before = motion.saved();
   Aligner aligner(motion, config);
   const int thinning = std::max(1, (scan.camera.width + config.coarse_columns - 1) / config.coarse_columns);
-  const bool found =
-      config.coarse_iterations == 0 || aligner.runLevel(thinned(scan, thinning), config.coarse_iterations, config.coarse_gate_m,
-                                                        config.fine_gate_m, config.min_inliers / (thinning * thinning));
+  bool found = config.coarse_iterations == 0 || aligner.runLevel(thinned(scan, thinning), config.coarse_iterations, config.coarse_gate_m,
+                                                                 config.fine_gate_m, config.min_inliers / (thinning * thinning));
+  for (int between = thinning / 2; found && config.coarse_iterations > 0 && between > 1; between /= 2) {  // most steps where points are few
+    found = aligner.runLevel(thinned(scan, between), config.fine_iterations, config.fine_gate_m, config.fine_gate_m,
+                             config.min_inliers / (4 * between * between));
+  }
   const bool fits = found && aligner.runLevel(scan, config.fine_iterations, config.fine_gate_m, config.fine_gate_m, config.min_inliers / 4);
   if (!found) {
     motion.restore(before);

@@ -20,7 +20,9 @@ double residualSigma_m(double depth_m, double normal_dot_ray) {
   constexpr double kLateralSigma = 0.5 / 525.0;
   const double cosine = std::abs(normal_dot_ray);
   const double across = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  return std::hypot(camera::depthSigma_m(depth_m) * cosine, depth_m * kLateralSigma * across);
+  const double along_m = camera::depthSigma_m(depth_m) * cosine;
+  const double beside_m = depth_m * kLateralSigma * across;
+  return std::sqrt(along_m * along_m + beside_m * beside_m);
 }
 
 Pairing projectivePairs(const render::View& view, const Scan& scan, const Eigen::Isometry3d& T_map_camera, const PairRules& rules) {

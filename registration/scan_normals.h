@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -26,26 +27,31 @@ class RowNormals {
 
  private:
   using Row = std::vector<float>;
+  struct Moments;
 
-  void loadRow(int v_px);
-  [[nodiscard]] const float* loaded(int du_px) const;
-  void addRow(int dv_px);
-  void solve(int v_px);
+  void load(int v_px);
+  [[nodiscard]] Row& rowOf(int v_px) { return rows_[static_cast<std::size_t>(v_px) % rows_.size()]; }
+  [[nodiscard]] std::size_t offsetOf(int du_px) const;
+  [[nodiscard]] Moments momentsOf(std::size_t first, const float* centre) const;
+  void solve(std::size_t first, float v_px, const Moments& moments);
 
   const cv::Mat& depth_m_;
   camera::PinholeCamera camera_;
   int step_px_;
   int radius_px_;
-  int stride_px_;
   float max_step_share_;
-  std::size_t columns_;
-  std::size_t margin_;       ///< columns of a phase that a window reaches beyond the image
-  std::vector<Row> phases_;  ///< inverse depth of an image row (1/m), by u mod step; NaN beyond the image
-  Row centre_;               ///< inverse depth in the middle of each window
-  Row samples_of_row_;       ///< how many of a window's row lie in the image
-  float rows_in_image_ = 0.0F;
-  Row row_count_, row_u_, row_uu_, row_q_, row_qu_;  ///< of one row of the windows
-  Row count_, u_, v_, uu_, uv_, vv_, q_, qu_, qv_;   ///< of the windows: q less the centre's
+  std::size_t columns_;       ///< in whole blocks: the last ones may lie beyond the image
+  std::size_t margin_;        ///< columns of a phase that a window reaches beyond the image
+  std::vector<int> samples_;  ///< of a window, in each direction (px)
+  std::vector<std::size_t> offset_of_sample_;
+  std::vector<Row> rows_;  ///< inverse depth of the last image rows (1/m), by u mod step; NaN beyond the image
+  int next_row_ = 0;       ///< of the image, to be loaded
+  Row samples_of_row_;     ///< how many of a window's row lie in the image
+  struct SampledRow {
+    const float* inverse_depth = nullptr;
+    float dv_px = 0.0F;
+  };
+  std::vector<SampledRow> sampled_rows_;  ///< of the windows being fitted that lie in the image
   Row x_, y_, z_;
 };
 
