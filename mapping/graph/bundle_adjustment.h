@@ -17,8 +17,8 @@ struct BundleAdjustmentConfig {
   double host_depth_weight = 1.0;       ///< of the information of the host's reading
   double sighting_depth_weight = 0.05;  ///< of that of the other readings: they share errors with each other
   double readout_sigma_s = 0.02;        ///< prior of the read-out time, about 0
-  double settled_sigma_m = 0.03;        ///< of each motion between settled nodes that have an edge: holds what few sightings show
-  double settled_sigma_rad = 0.03;
+  double settled_sigma_m = 0.001;       ///< of each motion between settled nodes that have an edge: all that is left of the sightings of
+  double settled_sigma_rad = 0.001;     ///< the frames between them
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -48,7 +48,7 @@ struct [[nodiscard]] BundleAdjustmentResult {
 };
 
 /// Global refinement: poses of all nodes (the first of each sub-map fixed) and inverse depths of all landmarks, from reprojection
-/// and depth readings (S312, S316, S354), and weakly from what an earlier run has settled; with Readout::kRefined the rolling shutter's
+/// and depth readings (S312, S316, S354), and from what an earlier run has settled; with Readout::kRefined the rolling shutter's
 /// read-out time, too. Changes poses and inverse depths of `graph`. Single-threaded and deterministic.
 BundleAdjustmentResult adjustBundle(KeyframeGraph& graph, const camera::PinholeCamera& camera, double readout_start_s, Readout readout,
                                     const BundleAdjustmentConfig& config);

@@ -31,6 +31,7 @@ struct FrontEndConfig {
   double keyframe_parallax = 0.25;      ///< and when the camera has moved by more than this share of the median depth
   int neighbourhood = 3;                ///< keyframes this many edges away lend their landmarks
   double borrow_gain = 1.2;             ///< they do instead of a new keyframe if they give this many times what the last one saw
+  int frames_a_look = 5;                ///< in a map that is extended: every so many frames landmarks that have come into view are taken
   int local_keyframes = 10;             ///< at most, those with most landmarks in view
   int loop_candidates = 4;              ///< places verified per keyframe
   int min_loop_votes = 15;
@@ -53,6 +54,7 @@ struct FrontEndConfig {
     visitor("keyframe_parallax", keyframe_parallax);
     visitor("neighbourhood", neighbourhood);
     visitor("borrow_gain", borrow_gain);
+    visitor("frames_a_look", frames_a_look);
     visitor("local_keyframes", local_keyframes);
     visitor("loop_candidates", loop_candidates);
     visitor("min_loop_votes", min_loop_votes);
@@ -139,6 +141,7 @@ class FrontEnd {
   [[nodiscard]] std::optional<FollowResult> recover(Current& current);
   [[nodiscard]] bool keyframeDue(const FollowResult& seen) const;
   [[nodiscard]] double viewChange(const FollowResult& seen) const;
+  void lookAbout(const Current& current, FollowResult& seen);
   bool borrowFromNeighbours(const Current& current, FollowResult& seen);
   void addKeyframe(Current& current, FollowResult& seen);
   struct Revisit;
@@ -167,6 +170,7 @@ class FrontEnd {
   int reference_ = -1;                ///< node whose landmarks are seen most
   int latest_ = -1;                   ///< keyframe
   int seen_at_keyframe_ = 0;
+  int frames_since_look_ = 0;
   int lost_in_a_row_ = 0;
   Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_previous_current_ = Eigen::Isometry3d::Identity();  ///< the expected motion

@@ -17,6 +17,7 @@ std::vector<std::string> FrontEndConfig::validate() const {
   rules.greater("keyframe_parallax", keyframe_parallax, 0.0)
       .atLeast("neighbourhood", neighbourhood, 0)
       .greater("borrow_gain", borrow_gain, 0.0)
+      .atLeast("frames_a_look", frames_a_look, 1)
       .atLeast("local_keyframes", local_keyframes, 1)
       .atLeast("loop_candidates", loop_candidates, 0)
       .atLeast("min_loop_votes", min_loop_votes, 1)

@@ -91,7 +91,8 @@ TEST(MapExtension, TheSameWayAgainAddsHardlyAKeyframe) {
   ASSERT_TRUE(both.result.is_placed);
   EXPECT_LE(both.result.keyframes - map.result.keyframes, std::max(4, map.result.keyframes / 4)) << map.result.keyframes << " before";
   EXPECT_TRUE(both.result.changes.empty());
-  EXPECT_LT(worstError_m(both.trajectory(), joined(drive, drive)), 0.04);
+  // What is seen again is placed as well as it was at first.
+  EXPECT_LT(worstError_m(both.trajectory(), joined(drive, drive)), 1.5 * worstError_m(map.trajectory(), drive) + 0.002);
 }
 
 TEST(MapExtension, AnExtendedMapIsExtendedAgain) {
