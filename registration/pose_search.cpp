@@ -67,7 +67,10 @@ class Search {
     if (isWithinRange(first)) {
       found.insert(found.begin(), first);
     }
-    found.erase(std::remove_if(found.begin(), found.end(), [&](const Hypothesis& h) { return !isWithinRange(h); }), found.end());
+    std::erase_if(found, [&](const Hypothesis& h) { return !isWithinRange(h); });
+    if (std::any_of(found.begin(), found.end(), [&](const Hypothesis& h) { return isItself(h); })) {
+      std::erase_if(found, [&](const Hypothesis& h) { return !isItself(h); });
+    }
     if (found.empty()) {
       return nothingFound(middle);
     }
@@ -132,8 +135,13 @@ class Search {
     if (rivalled && result.status == AlignStatus::kConverged) {
       result.status = AlignStatus::kAmbiguous;
     }
+    if (result.status == AlignStatus::kConverged && !isItself(*best)) {
+      result.status = AlignStatus::kTooLittleOverlap;
+    }
     return result;
   }
+
+  [[nodiscard]] bool isItself(const Hypothesis& hypothesis) const { return hypothesis.result.overlap >= config_.min_overlap; }
 
   /// A piece that looks the same from another side must not be found turned round.
   [[nodiscard]] bool isWithinRange(const Hypothesis& hypothesis) const {
@@ -169,6 +177,7 @@ std::vector<std::string> SearchConfig::validate() const {
       .atLeast("best_starts", best_starts, 1)
       .atLeast("same_m", same_m, 0.0)
       .atLeast("same_deg", same_deg, 0.0)
+      .between("min_overlap", min_overlap, 0.0, 1.0)
       .atLeast("clear_lead", clear_lead, 0.0)
       .messages();
 }

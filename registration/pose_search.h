@@ -19,7 +19,8 @@ struct SearchConfig {
   int best_starts = 4;           ///< so many of them are gone on with
   double same_m = 0.03;          ///< two results nearer than this, and than `same_deg`, are one
   double same_deg = 3.0;
-  double clear_lead = 0.03;  ///< a fit that is better by less is no better: ambiguous
+  double min_overlap = 0.78;  ///< where the scan shows what lies behind more of the model, something else stands there: a person before it
+  double clear_lead = 0.03;   ///< a fit that is better by less is no better: ambiguous
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -33,6 +34,7 @@ struct SearchConfig {
     visitor("best_starts", best_starts);
     visitor("same_m", same_m);
     visitor("same_deg", same_deg);
+    visitor("min_overlap", min_overlap);
     visitor("clear_lead", clear_lead);
   }
   [[nodiscard]] std::vector<std::string> validate() const;

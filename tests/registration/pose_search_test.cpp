@@ -22,7 +22,8 @@ struct Found {
   double error_rad;
 };
 
-Found searchFrom(const test::FurnitureKind& furniture, const Eigen::Isometry3d& T_model_start, bool has_occluder = false) {
+Found searchFrom(const test::FurnitureKind& furniture, const Eigen::Isometry3d& T_model_start, bool has_occluder = false,
+                 double distance_m = 2.0, double off_axis_deg = 45.0) {
   std::mt19937_64 random(11);
   const model::ArticulatedModel real = test::trulyBuilt(furniture, 0.005, random);
   const model::ArticulatedModel model = test::believed(furniture);
@@ -30,7 +31,7 @@ Found searchFrom(const test::FurnitureKind& furniture, const Eigen::Isometry3d& 
   world.model = &real;
   world.joint_values.assign(real.joints.size(), 0.0);
   world.T_map_model = Eigen::Translation3d(0.3, 0.6, 0.0) * Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ());
-  world.T_map_camera = test::cameraBefore(world.T_map_model, 2.0, 45.0 * kDegree, 0.6);
+  world.T_map_camera = test::cameraBefore(world.T_map_model, distance_m, off_axis_deg * kDegree, 0.6);
   world.has_occluder = has_occluder;
   const Eigen::Isometry3d T_map_start = world.T_map_model * T_model_start;
   render::Scene scene;
@@ -62,6 +63,17 @@ TEST(PoseSearch, APersonBeforeTheFurnitureDoesNotPullIt) {
       searchFrom({"sofa"}, Eigen::Translation3d(0.1, -0.1, 0.0) * Eigen::AngleAxisd(5.0 * kDegree, Eigen::Vector3d::UnitZ()), true);
   EXPECT_LT(found.error_m, 0.02);
   EXPECT_LT(found.error_rad, 1.0 * kDegree);
+}
+
+/// Its flat front is like a cupboard's, 40 cm nearer.
+TEST(PoseSearch, APersonIsNoCupboard) {
+  for (const char* kind : {"cabinet", "dishwasher", "fridge"}) {
+    for (const double off_axis_deg : {-55.0, -45.0, -35.0, -27.0, 27.0, 35.0, 45.0, 55.0}) {
+      const Found found = searchFrom({kind}, Eigen::Isometry3d(Eigen::Translation3d(0.05, 0.02, 0.0)), true, 1.6, off_axis_deg);
+      EXPECT_TRUE(found.result.status != AlignStatus::kConverged || found.error_m < 0.02)
+          << kind << " from " << off_axis_deg << " deg: " << found.error_m << " m, overlap " << found.result.overlap;
+    }
+  }
 }
 
 /// A row of equal boxes, two of which the search reaches: neither is better.
