@@ -133,6 +133,7 @@ TEST(SearchConfig, Rules) {
                                         {"best_starts", "0", "must be >= 1"},
                                         {"same_m", "-1", "must be >= 0"},
                                         {"same_deg", "-1", "must be >= 0"},
+                                        {"min_overlap", "2", "must be from 0 to 1"},
                                         {"clear_lead", "-1", "must be >= 0"}});
 }
 
