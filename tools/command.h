@@ -67,5 +67,6 @@ void addRevertCommand(CLI::App& root);
 void addServeCommand(CLI::App& root);
 void addSimulateCommand(CLI::App& root);
 void addTellCommand(CLI::App& root);
+void addTrackCommand(CLI::App& root);
 
 }  // namespace oikos::tools

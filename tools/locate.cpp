@@ -8,13 +8,16 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/config.h"
 #include "core/base/degrees.h"
 #include "core/base/number_text.h"
 #include "core/metrics/error_statistics.h"
 #include "core/recording/recording.h"
+#include "semantic/history/home_state.h"
 #include "tools/command.h"
 #include "tools/locate_job.h"
 #include "tools/mount_options.h"
@@ -24,6 +27,7 @@ namespace oikos::tools {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using tracking::LocatedPose;
 using tracking::PoseSource;
@@ -37,10 +41,10 @@ constexpr const char* kExamples =
     "is furniture to refine by. Exits with 1 if no frame was found.";
 
 struct LocateOptions {
-  std::filesystem::path home;
-  std::filesystem::path recording;
-  std::filesystem::path out;
-  std::filesystem::path prior;
+  fs::path home;
+  fs::path recording;
+  fs::path out;
+  fs::path prior;
   std::string from;
   std::string object;
   std::string camera;
@@ -112,7 +116,7 @@ Summary summarise(const Located& located) {
   return summary;
 }
 
-void printJson(const Summary& summary, const std::filesystem::path& out) {
+void printJson(const Summary& summary, const fs::path& out) {
   Json landmarks = Json::array();
   for (const auto& [id, verdicts] : summary.landmarks) {
     Json piece = {{"id", id}};
@@ -137,7 +141,7 @@ void printJson(const Summary& summary, const std::filesystem::path& out) {
   std::cout << json.dump(2) << '\n';
 }
 
-void printText(const Summary& summary, const std::filesystem::path& out) {
+void printText(const Summary& summary, const fs::path& out) {
   using base::toFixedText;
   std::cout << summary.found << " of " << summary.frames << " frames found in " << toFixedText(summary.elapsed_s, 1)
             << " s: " << summary.relocalised << " relocalised in the map, " << summary.tracked << " tracked, " << summary.refined
@@ -163,11 +167,30 @@ void printText(const Summary& summary, const std::filesystem::path& out) {
   }
 }
 
+/// As when the map was made, where nothing else is said.
+tracking::LocaliseConfig configOf(const LocateOptions& options, const GlobalOptions& global) {
+  tracking::LocaliseConfig config = localiseConfigOf(options.home, global.threads);
+  base::ConfigLayers layers{global.config, {}};
+  for (const std::string& text : options.settings) {
+    layers.settings.push_back(base::parseSetting(text));
+  }
+  const base::ConfigOrigins origins = base::assignFields(base::listFields(config), layers);
+  base::throwIfInvalid(base::validateConfig(config), origins);
+  return config;
+}
+
 ExitCode locate(const LocateOptions& options, const Session& session) {
   const auto begin = std::chrono::steady_clock::now();
   const auto recording = recording::openRecording(options.recording, {.camera = options.camera});
-  LocateJob job{*recording,      options.home, mountOf(options.mount, *recording), options.prior, {}, options.object, !options.no_landmarks,
-                options.settings};
+  const bool has_home = fs::exists(options.home / "home.xml") || !options.object.empty();
+  std::optional<semantic::Home> known;
+  if (has_home && !options.no_landmarks) {
+    known = semantic::loadHome(options.home);
+  }
+  LocateJob job{*recording, options.home, configOf(options, session.options), mountOf(options.mount, *recording), options.prior};
+  job.known = known ? &*known : nullptr;
+  job.object = options.object;
+  job.seed = session.options.seed;
   if (!options.from.empty()) {
     job.from = parseFloorPlace(options.from, "--from");
   }

@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
   oikos::tools::addDemoCommand(program.root());
   oikos::tools::addMapCommand(program.root());
   oikos::tools::addLocateCommand(program.root());
+  oikos::tools::addTrackCommand(program.root());
   oikos::tools::addInspectCommand(program.root());
   oikos::tools::addAskCommand(program.root());
   oikos::tools::addTellCommand(program.root());

@@ -310,4 +310,13 @@ ArticulatedResult ArticulatedRegistration::run(const Scan& scan, const Eigen::Is
   return Run(tree_, config_, mixture_, layers_, whole_, T_map_camera, believed).run(scan);
 }
 
+ArticulatedResult ArticulatedRegistration::run(const Scan& scan, const Eigen::Isometry3d& T_map_camera, const Standing& believed,
+                                               const BaseSigma& sigma) {
+  OIKOS_CHECK(believed.joint_values.size() == tree_.model().joints.size() && sigma.position_m > 0.0 && sigma.yaw_deg > 0.0);
+  ArticulatedConfig config = config_;
+  config.solver.base_sigma_m = sigma.position_m;
+  config.solver.base_sigma_deg = sigma.yaw_deg;
+  return Run(tree_, config, mixture_, layers_, whole_, T_map_camera, believed).run(scan);
+}
+
 }  // namespace oikos::registration

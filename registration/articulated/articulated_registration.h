@@ -102,6 +102,12 @@ struct [[nodiscard]] ArticulatedResult {
   [[nodiscard]] const JointEstimate* find(const std::string& joint_name) const;
 };
 
+/// How well a camera and the place where a piece is believed to stand agree: standard deviations.
+struct BaseSigma {
+  double position_m = 0.0;  ///< in x and in y
+  double yaw_deg = 0.0;
+};
+
 /// How far doors and drawers of a piece stand open in a depth image (S227-S235). Every value of each joint is compared with the image by
 /// rendering, whatever was believed of it; then the base, and the joints down the tree, are solved for, and the values are compared once
 /// more. Holds what is needed to render the model, so that one piece of furniture costs little the second time. Not thread-safe.
@@ -113,6 +119,8 @@ class ArticulatedRegistration {
   /// `believed`: where the piece is thought to stand (deviations: JointSolverConfig), and its joints; these only matter where nothing is
   /// seen of them.
   ArticulatedResult run(const Scan& scan, const Eigen::Isometry3d& T_map_camera, const Standing& believed);
+  /// The same, for this image in place of the configuration's deviations of the base; both must be above 0.
+  ArticulatedResult run(const Scan& scan, const Eigen::Isometry3d& T_map_camera, const Standing& believed, const BaseSigma& sigma);
 
  private:
   JointTree tree_;

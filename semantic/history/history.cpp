@@ -77,17 +77,14 @@ class Writer {
   explicit Writer(const std::filesystem::path& file)
       : database_(openHistoryForWriting(file)),
         insert_(database_, "INSERT INTO event VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
-        last_(database_, "SELECT max(number) FROM event") {}
+        last_(database_, "SELECT max(number) FROM event"),
+        find_read_(database_, history_sql::readRecording()),
+        insert_read_(database_, "INSERT OR REPLACE INTO read_recording VALUES(?, ?, ?)") {}
 
   /// All or none; the last number.
   std::int64_t append(std::span<const Event> events, const History::Checkpoint* checkpoint, const std::string& deflated_home) {
     SqliteTransaction transaction(database_);
-    std::int64_t number = lastNumber();
-    for (const Event& event : events) {
-      const SqliteUse use(insert_);
-      bindEvent(*use, event, ++number);
-      use->step();
-    }
+    const std::int64_t number = insert(events);
     if (checkpoint != nullptr) {
       add(*checkpoint, deflated_home);
     }
@@ -95,7 +92,36 @@ class Writer {
     return number;
   }
 
+  std::optional<std::int64_t> appendRecording(const History::ReadRecording& read, std::span<const Event> events) {
+    SqliteTransaction transaction(database_);
+    if (const auto before = findRead(read.digest); before && before->counts) {
+      return std::nullopt;
+    }
+    const std::int64_t number = insert(events);
+    {
+      const SqliteUse use(insert_read_, std::string_view(read.digest), std::string_view(read.recording), number);
+      use->step();
+    }
+    transaction.commit();
+    return number;
+  }
+
+  std::optional<History::ReadBefore> findRead(std::string_view digest) {
+    const SqliteUse use(find_read_, digest);
+    return use->step() ? std::optional(History::ReadBefore{use->text(0), use->integer(1) == 0}) : std::nullopt;
+  }
+
  private:
+  std::int64_t insert(std::span<const Event> events) {
+    std::int64_t number = lastNumber();
+    for (const Event& event : events) {
+      const SqliteUse use(insert_);
+      bindEvent(*use, event, ++number);
+      use->step();
+    }
+    return number;
+  }
+
   std::int64_t lastNumber() {
     const SqliteUse use(last_);
     return use->step() ? use->integer(0) : 0;
@@ -113,6 +139,8 @@ class Writer {
   SqliteDatabase database_;
   SqliteStatement insert_;
   SqliteStatement last_;
+  SqliteStatement find_read_;
+  SqliteStatement insert_read_;
 };
 
 }  // namespace
@@ -131,6 +159,14 @@ class History::Database {
     const std::string deflated_home = checkpoint == nullptr ? "" : deflated(checkpoint->content);
     const std::lock_guard lock(writer_mutex_);
     return writer_->append(events, checkpoint, deflated_home);
+  }
+
+  /// `write(writer)`.
+  template <class Write>
+  auto write(const Write& write) {
+    OIKOS_CHECK(writer_.has_value());
+    const std::lock_guard lock(writer_mutex_);
+    return write(*writer_);
   }
 
   /// `read(reads)`, or an empty value as long as there is no file.
@@ -208,6 +244,14 @@ History::~History() = default;
 
 std::int64_t History::append(std::span<const Event> events, const Checkpoint* checkpoint) {
   return database_->append(events, checkpoint);
+}
+
+std::optional<std::int64_t> History::appendRecording(const ReadRecording& read, std::span<const Event> events) {
+  return database_->write([&](Writer& writer) { return writer.appendRecording(read, events); });
+}
+
+std::optional<History::ReadBefore> History::findReadRecording(std::string_view digest) const {
+  return database_->write([&](Writer& writer) { return writer.findRead(digest); });
 }
 
 std::int64_t History::lastNumber() const {

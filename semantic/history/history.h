@@ -43,6 +43,21 @@ class History {
   /// The newest first.
   [[nodiscard]] std::vector<Checkpoint> checkpoints() const;
 
+  /// A recording that was read to its end.
+  struct ReadRecording {
+    std::string digest;     ///< of its content
+    std::string recording;  ///< its name in events
+  };
+  /// Commits what a recording says, and that it was read, all or none. Nothing if its content was read before, by whatever name, and not
+  /// taken back since: nothing is written then.
+  std::optional<std::int64_t> appendRecording(const ReadRecording& read, std::span<const Event> events);
+  /// How this content was read last. Needs kAppend.
+  struct ReadBefore {
+    std::string recording;  ///< its name in events
+    bool counts = true;     ///< it was not taken back since
+  };
+  [[nodiscard]] std::optional<ReadBefore> findReadRecording(std::string_view digest) const;
+
   /// Of the last event; 0: none yet. Sees what other processes have committed.
   [[nodiscard]] std::int64_t lastNumber() const;
   /// In the order of commits, numbers above `number`; at most `limit`.

@@ -26,9 +26,11 @@ constexpr const char* kSchema =
     "CREATE TRIGGER no_delete BEFORE DELETE ON event BEGIN SELECT RAISE(ABORT, 'a history is never changed'); END;"
     "CREATE TABLE checkpoint(id INTEGER PRIMARY KEY, as_of INTEGER NOT NULL, size INTEGER NOT NULL, home_xml_deflated BLOB NOT NULL);";
 
-/// A lookup among sightings alone: a joint's or cup's other events may be many. Programs that do not know it keep it, too.
-constexpr const char* kLaterIndexes =
-    "CREATE INDEX IF NOT EXISTS sighting_of_subject ON event(subject, time_ns, number) WHERE kind = 'sighted' AND after IS NOT NULL;";
+/// A lookup among sightings alone: a joint's or cup's other events may be many. And which recordings were read, with the last event there
+/// was then. Programs that do not know these keep them.
+constexpr const char* kLater =
+    "CREATE INDEX IF NOT EXISTS sighting_of_subject ON event(subject, time_ns, number) WHERE kind = 'sighted' AND after IS NOT NULL;"
+    "CREATE TABLE IF NOT EXISTS read_recording(digest TEXT PRIMARY KEY, recording TEXT NOT NULL, last_event INTEGER NOT NULL);";
 
 constexpr std::string_view kSaysState = "e.after IS NOT NULL AND e.kind NOT IN ('missed', 'forgotten')";
 /// Not taken back.
@@ -86,7 +88,7 @@ SqliteDatabase openHistoryForWriting(const std::filesystem::path& file) {
     database.execute(("PRAGMA user_version=" + std::to_string(kVersion)).c_str());
   }
   checkHistoryFormat(database);
-  database.execute(kLaterIndexes);
+  database.execute(kLater);
   transaction.commit();
   return database;
 }
@@ -155,6 +157,12 @@ std::string lastRecording() {
 
 std::string spanOfRecording() {
   return select("min(e.time_ns), max(e.time_ns)", {"e.recording = ?", "e.kind != 'reverted'", kCounts}, "");
+}
+
+std::string readRecording() {
+  return "SELECT t.recording, EXISTS"
+         " (SELECT 1 FROM event r WHERE r.kind = 'reverted' AND r.recording = t.recording AND r.number > t.last_event)"
+         " FROM read_recording t WHERE t.digest = ?";
 }
 
 std::string checkpoints() {

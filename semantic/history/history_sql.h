@@ -11,7 +11,7 @@
 
 namespace oikos::semantic {
 
-/// Makes the tables where there are none yet, and indexes that an older program did not make. Throws Error{kInput} for a file that is no
+/// Makes the tables where there are none yet, and what an older program did not make. Throws Error{kInput} for a file that is no
 /// history or of a newer version, Error{kIo} where it cannot be written.
 [[nodiscard]] SqliteDatabase openHistoryForWriting(const std::filesystem::path& file);
 
@@ -37,6 +37,7 @@ namespace history_sql {
 [[nodiscard]] std::string nextRecording();      ///< the recording before it
 [[nodiscard]] std::string lastRecording();
 [[nodiscard]] std::string spanOfRecording();  ///< recording; its first and last time_ns
+[[nodiscard]] std::string readRecording();    ///< digest; its name, and whether it was taken back since
 [[nodiscard]] std::string checkpoints();      ///< as_of, size, home_xml_deflated; the newest first
 
 }  // namespace history_sql

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "semantic/history/event_json.h"
 #include "semantic/xml/home_reader.h"
 
 namespace oikos::semantic {
@@ -277,6 +278,22 @@ void HomeState::takeNewFrom(const History& history, const std::function<void(con
     }
     home_.as_of = events.back().number;
   }
+}
+
+void prepareForCommit(std::vector<Event>& events, const HomeState& state, std::map<std::string, State>& changed) {
+  std::map<std::string, State> mine = changed;
+  for (Event& event : events) {
+    state.check(event);
+    const auto earlier = mine.find(event.subject);
+    event.before = earlier != mine.end() ? std::optional(earlier->second) : state.findState(event.subject);
+    if (event.after) {
+      event.after = asStored(*event.after);
+      if (event.kind != EventKind::kMissed && event.kind != EventKind::kForgotten) {
+        mine.insert_or_assign(event.subject, *event.after);
+      }
+    }
+  }
+  changed = std::move(mine);
 }
 
 Home loadHome(const std::filesystem::path& folder) {

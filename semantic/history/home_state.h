@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "semantic/history/event.h"
 #include "semantic/history/history.h"
@@ -60,6 +62,11 @@ class HomeState {
   std::unordered_map<std::string, Location> locations_;
   std::unordered_map<std::string, std::int64_t> newest_ns_;  // of the states that are in the home
 };
+
+/// Makes events ready to be committed: each is checked against the home (Error{kInput}), its `after` is as it will be stored, and `before`
+/// is what the home has, or what the events before it make of it. `changed`: that, of earlier events that are to be committed with these;
+/// it is not touched where an error is thrown.
+void prepareForCommit(std::vector<Event>& events, const HomeState& state, std::map<std::string, State>& changed);
 
 /// home.xml as it stands in the folder with every event that came after it. Takes no lock and writes nothing. Throws Error{kInput} for a
 /// home that is not valid.

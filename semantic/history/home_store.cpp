@@ -12,7 +12,6 @@
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "semantic/history/commit_queue.h"
-#include "semantic/history/event_json.h"
 #include "semantic/history/home_edits.h"
 #include "semantic/history/home_lock.h"
 #include "semantic/history/home_state.h"
@@ -169,7 +168,7 @@ class HomeStore::Impl {
     std::vector<Event> together;
     for (CommitQueue::Batch* batch : batches) {
       try {
-        prepare(batch->events, changed);
+        prepareForCommit(batch->events, state_, changed);
         together.insert(together.end(), batch->events.begin(), batch->events.end());
       } catch (const base::Error&) {
         batch->failure = std::current_exception();
@@ -190,22 +189,6 @@ class HomeStore::Impl {
       }
     }
     publish();
-  }
-
-  void prepare(std::vector<Event>& events, std::map<std::string, State>& changed) const {
-    std::map<std::string, State> mine = changed;
-    for (Event& event : events) {
-      state_.check(event);
-      const auto earlier = mine.find(event.subject);
-      event.before = earlier != mine.end() ? std::optional(earlier->second) : state_.findState(event.subject);
-      if (event.after) {
-        event.after = asStored(*event.after);
-        if (event.kind != EventKind::kMissed && event.kind != EventKind::kForgotten) {
-          mine.insert_or_assign(event.subject, *event.after);
-        }
-      }
-    }
-    changed = std::move(mine);
   }
 
   void takeCommitted(const std::vector<Event>& events, std::int64_t number_before) {

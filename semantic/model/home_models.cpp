@@ -99,6 +99,11 @@ void addKnobs(const LargeObject& object, const ArticulatedModel* shape, Articula
     joint.axis_joint = knob.axis_knob;
     joint.lower = -std::numeric_limits<double>::infinity();
     joint.upper = std::numeric_limits<double>::infinity();
+    model::ModelKnob made_knob{knob.id.value, joint.child, Eigen::Isometry3d::Identity(), knob.axis_knob, {}};
+    for (const KnobState& state : knob.states) {
+      made_knob.states.push_back({state.name, state.angle_rad});
+    }
+    made.knobs.push_back(std::move(made_knob));
     made.parts.push_back({knob.id.value, part == nullptr ? nullptr : part->mesh_part});
     made.joints.push_back(std::move(joint));
   }

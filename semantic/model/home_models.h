@@ -22,7 +22,8 @@ class ModelMaker {
   explicit ModelMaker(std::filesystem::path home_folder) : folder_(std::move(home_folder)) {}
 
   /// Parts and joints are the object's, in its order: part i of the object is part i of the model, joint i is joint i. Each knob adds a
-  /// part behind them, with a joint behind them, so that it can be seen turning. An object without articulation is one part.
+  /// part behind them, with a joint behind them, so that it can be seen turning, and is a knob of the model. An object without articulation
+  /// is one part.
   [[nodiscard]] model::ArticulatedModel make(const LargeObject& object);
   /// One part.
   [[nodiscard]] model::ArticulatedModel make(const SmallObject& object);

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/track_answers.h"
+
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/base/degrees.h"
+#include "core/base/number_text.h"
+#include "core/base/rfc3339.h"
+#include "semantic/history/event_json.h"
+
+namespace oikos::tools {
+
+namespace {
+
+using base::toFixedText;
+using Json = nlohmann::ordered_json;
+using registration::JointStatus;
+
+bool turns(semantic::JointType type) {
+  return type == semantic::JointType::kRevolute;
+}
+
+/// In the unit of files.
+double written(double value, semantic::JointType type) {
+  return turns(type) ? value / base::kRadPerDeg : value;
+}
+
+/// "70.2 deg", "25.1 cm".
+std::string valueText(double value, semantic::JointType type) {
+  return turns(type) ? toFixedText(value / base::kRadPerDeg, 1) + " deg" : toFixedText(100.0 * value, 1) + " cm";
+}
+
+double framesPerSecond(const tracking::RecordingStates& states) {
+  const double elapsed_s = states.locating_s + states.reading_s;
+  return elapsed_s > 0.0 ? states.frames / elapsed_s : 0.0;
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text;
+}
+
+void printEvent(const tracking::StateEvent& event) {
+  const semantic::JointType type = std::get<semantic::JointValue>(*event.event.after).type;
+  std::cout << "  " << padded(event.event.subject, 34) << padded(std::string(base::toString(event.change.kind)), 7) << "  "
+            << valueText(event.change.before, type) << " -> " << valueText(event.change.after, type) << " +- "
+            << valueText(event.change.sigma, type) << "  " << base::toRfc3339(event.event.time_ns) << ", frame " << event.change.frame
+            << ", sure to " << toFixedText(100.0 * event.event.confidence, 1) << " %\n";
+}
+
+/// Every joint in view, with its value at the recording's end.
+void printReadings(const tracking::RecordingStates& states) {
+  std::cout << "  joint                             status          value       sigma     stays images found\n";
+  for (const tracking::PieceReading& piece : states.pieces) {
+    for (const tracking::JointReading& joint : piece.joints) {
+      if (joint.stays.empty()) {
+        std::cout << "  " << padded(joint.id.value, 34) << "not in view\n";
+        continue;
+      }
+      const tracking::JointStay& last = joint.stays.back();
+      std::cout << "  " << padded(joint.id.value, 34) << padded(std::string(base::toString(last.span.status)), 16)
+                << padded(valueText(last.span.value, joint.type), 12) << padded(valueText(std::sqrt(last.span.variance), joint.type), 10)
+                << padded(std::to_string(joint.stays.size()), 6) << padded(std::to_string(last.images), 7) << last.found << '\n';
+    }
+  }
+}
+
+Json stayJson(const tracking::JointStay& stay, const tracking::JointReading& joint, std::int64_t start_ns) {
+  const std::string unit = turns(joint.type) ? "deg" : "m";
+  return {{"status", base::toString(stay.span.status)},
+          {"value_" + unit, written(stay.span.value, joint.type)},
+          {"sigma_" + unit, written(std::sqrt(stay.span.variance), joint.type)},
+          {"confidence", stay.span.confidence},
+          {"from", base::toRfc3339(start_ns + stay.span.first_ns)},
+          {"to", base::toRfc3339(start_ns + stay.span.last_ns)},
+          {"frame", stay.first_frame},
+          {"images", stay.images},
+          {"found", stay.found}};
+}
+
+Json piecesJson(const TrackedRecording& recording) {
+  Json pieces = Json::array();
+  for (const tracking::PieceReading& piece : recording.states.pieces) {
+    Json joints = Json::array();
+    for (const tracking::JointReading& joint : piece.joints) {
+      Json stays = Json::array();
+      for (const tracking::JointStay& stay : joint.stays) {
+        stays.push_back(stayJson(stay, joint, recording.start_ns));
+      }
+      joints.push_back({{"id", joint.id.value}, {"stays", std::move(stays)}});
+    }
+    pieces.push_back({{"id", piece.id.value},
+                      {"frames_in_view", piece.frames_in_view},
+                      {"images", piece.images},
+                      {"not_there", piece.not_there},
+                      {"joints", std::move(joints)}});
+  }
+  return pieces;
+}
+
+Json recordingJson(const TrackedRecording& recording) {
+  Json json = {{"recording", recording.folder.string()}, {"status", base::toString(recording.status)}};
+  if (!recording.name.empty()) {
+    json["name"] = recording.name;
+  }
+  if (recording.status == TrackStatus::kFailed) {
+    json["code"] = static_cast<int>(recording.code);
+    json["problem"] = recording.problem;
+    return json;
+  }
+  if (recording.status == TrackStatus::kKnown) {
+    return json;
+  }
+  const tracking::RecordingStates& states = recording.states;
+  json["frames"] = states.frames;
+  json["skipped_frames"] = states.unreadable;
+  json["looked_for"] = states.located;
+  json["found"] = states.found;
+  json["registrations"] = states.registrations;
+  json["opening_s"] = recording.opening_s;
+  json["locating_s"] = states.locating_s;
+  json["reading_s"] = states.reading_s;
+  json["frames_per_s"] = framesPerSecond(states);
+  json["events"] = Json::array();
+  for (const tracking::StateEvent& event : recording.events) {
+    Json one = semantic::toJson(event.event);
+    one["change"] = base::toString(event.change.kind);
+    json["events"].push_back(std::move(one));
+  }
+  json["pieces"] = piecesJson(recording);
+  return json;
+}
+
+}  // namespace
+
+void printText(const TrackedRecording& recording, bool is_dry) {
+  const std::string folder = recording.folder.string();
+  if (recording.status == TrackStatus::kKnown) {
+    std::cout << folder << ": was tracked before, as '" << recording.name << "'\n";
+    return;
+  }
+  const tracking::RecordingStates& states = recording.states;
+  std::cout << folder << ": " << states.found << " of " << states.located << " frames found, " << states.registrations
+            << " pictures of furniture read, in " << toFixedText(states.locating_s + states.reading_s, 1) << " s ("
+            << toFixedText(framesPerSecond(states), 1) << " frames/s)\n";
+  if (states.unreadable > 0) {
+    std::cout << "  " << states.unreadable << " frames could not be read\n";
+  }
+  if (is_dry) {
+    printReadings(states);
+  }
+  std::cout << "  " << recording.events.size() << (recording.events.size() == 1 ? " event" : " events")
+            << (is_dry ? " would be written\n" : "\n");
+  for (const tracking::StateEvent& event : recording.events) {
+    printEvent(event);
+  }
+}
+
+nlohmann::ordered_json toJson(const TrackOutcome& outcome, bool is_dry) {
+  Json recordings = Json::array();
+  for (const TrackedRecording& recording : outcome.recordings) {
+    recordings.push_back(recordingJson(recording));
+  }
+  return {{"dry_run", is_dry}, {"home_xml_is_written", !is_dry && outcome.checkpoint_problem.empty()}, {"recordings", recordings}};
+}
+
+}  // namespace oikos::tools

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/state/articulated_pieces.h"
+
+#include "core/base/error.h"
+#include "core/base/nearest_name.h"
+#include "semantic/model/home_models.h"
+#include "tracking/furniture/changed_pieces.h"
+
+namespace oikos::tracking {
+
+namespace {
+
+bool isTracked(const semantic::LargeObject& object) {
+  return object.movability != semantic::Movability::kMovable && object.articulation && !object.articulation->joints.empty();
+}
+
+[[noreturn]] void refuse(const semantic::Home& home, const std::string& only) {
+  std::vector<std::string> known;
+  for (const semantic::Room& room : home.rooms) {
+    for (const semantic::LargeObject& object : room.objects) {
+      if (isTracked(object)) {
+        known.push_back(object.id.value);
+      } else if (object.id.value == only) {
+        const bool is_movable = object.articulation && !object.articulation->joints.empty();
+        throw base::Error(base::ErrorCode::kUsage,
+                          "'" + only + (is_movable ? "' is movable: it may stand anywhere" : "' has no doors or drawers"), "--object");
+      }
+    }
+  }
+  throw base::Error(base::ErrorCode::kUsage, "no furniture '" + only + "' with doors or drawers" + base::didYouMean(only, known),
+                    "--object");
+}
+
+}  // namespace
+
+std::vector<ArticulatedPiece> articulatedPieces(const semantic::Home& home, const std::filesystem::path& home_folder,
+                                                const std::string& only) {
+  std::vector<ArticulatedPiece> pieces;
+  semantic::ModelMaker maker(home_folder);
+  for (const semantic::Room& room : home.rooms) {
+    for (const semantic::LargeObject& object : room.objects) {
+      if (!isTracked(object) || (!only.empty() && object.id.value != only)) {
+        continue;
+      }
+      ArticulatedPiece piece;
+      piece.id = object.id;
+      piece.movability = object.movability;
+      piece.model = maker.make(object);
+      piece.joints = object.articulation->joints;
+      piece.believed = {object.T_map_object.toIsometry(), semantic::jointValues(object)};
+      piece.box_model = boxOf(piece.model, {piece.believed.joint_values});
+      pieces.push_back(std::move(piece));
+    }
+  }
+  if (pieces.empty() && !only.empty()) {
+    refuse(home, only);
+  }
+  return pieces;
+}
+
+}  // namespace oikos::tracking

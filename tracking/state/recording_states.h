@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole recording: where it was, and what it says of doors and drawers.
+#pragma once
+
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/recording/recording.h"
+#include "tracking/localisation/localiser.h"
+#include "tracking/state/state_config.h"
+#include "tracking/state/state_reader.h"
+
+namespace oikos::tracking {
+
+struct RecordingStates {
+  int frames = 0;         ///< of the recording
+  int located = 0;        ///< frames that were looked for
+  int found = 0;          ///< and found
+  int unreadable = 0;     ///< frames that could not be decoded
+  int registrations = 0;  ///< of a piece in a frame
+  double locating_s = 0.0;
+  double reading_s = 0.0;
+  std::vector<PieceReading> pieces;
+};
+
+/// Every how many frames one is looked at, so that there are no more than `most_hz` in a second.
+[[nodiscard]] int strideOf(const recording::Recording& recording, double most_hz);
+
+/// Reads the recording to its end, then once more the frames that the reader asks for; only a few frames are in memory at a time. The same
+/// result for any number of threads. Throws Error{kInput} if too many frames cannot be read.
+[[nodiscard]] RecordingStates readStates(const recording::Recording& recording, Localiser& localiser, StateReader& reader,
+                                         const FrameChoiceConfig& config, int threads, const base::ProgressSink& progress = {});
+
+}  // namespace oikos::tracking

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/state/state_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/base/config.h"
+#include "core/base/degrees.h"
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "registration/articulated/articulated_registration.h"
+#include "tracking/furniture/changed_pieces.h"
+#include "tracking/state/frame_choice.h"
+
+namespace oikos::tracking {
+
+namespace {
+
+using registration::JointSighting;
+using registration::JointSpan;
+using registration::JointStatus;
+
+/// One piece in one frame, registered.
+struct Shot {
+  int index = 0;  ///< of the frames that were looked at
+  registration::BaseStatus base = registration::BaseStatus::kNotInView;
+  std::vector<registration::JointEstimate> joints;
+};
+
+std::vector<JointSighting> sightingsOf(const std::vector<Shot>& shots, std::size_t joint, const std::vector<SeenFrame>& frames) {
+  std::vector<JointSighting> sightings;
+  for (const Shot& shot : shots) {
+    const SeenFrame& frame = frames[static_cast<std::size_t>(shot.index)];
+    const registration::JointEstimate& estimate = shot.joints[joint];
+    sightings.push_back({frame.stamp_ns, frame.T_map_camera, estimate.status, estimate.confidence, estimate.evidence});
+  }
+  return sightings;
+}
+
+JointStay stayOf(const JointSpan& span, const std::vector<Shot>& shots, std::size_t joint, const std::vector<SeenFrame>& frames) {
+  JointStay stay;
+  stay.span = span;
+  stay.first_frame = frames[static_cast<std::size_t>(shots[span.first].index)].frame;
+  int most = -1;
+  for (std::size_t i = span.first; i <= span.last; ++i) {
+    const registration::JointEstimate& estimate = shots[i].joints[joint];
+    const bool is_found = estimate.status == JointStatus::kFound;
+    stay.images += estimate.status != JointStatus::kNotInView ? 1 : 0;
+    stay.found += is_found ? 1 : 0;
+    const int shown = estimate.sight.agreeing + (is_found ? 1'000'000 : 0);
+    if (shown > most) {
+      most = shown;
+      stay.best_frame = frames[static_cast<std::size_t>(shots[i].index)].frame;
+    }
+  }
+  return stay;
+}
+
+/// The pixels of the piece with that joint where it was found, and some beside them.
+registration::PixelBox cropOf(const ArticulatedPiece& piece, int joint, double value, const Eigen::Isometry3d& T_map_camera,
+                              const camera::PinholeCamera& camera) {
+  constexpr double kMargin = 0.08;  // of the box's sides
+  std::vector<double> values = piece.believed.joint_values;
+  values[static_cast<std::size_t>(joint)] = value;
+  const Eigen::AlignedBox3d box_model = boxOf(piece.model, {piece.believed.joint_values, values});
+  Eigen::AlignedBox2d box;
+  for (int i = 0; i < 8; ++i) {
+    const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
+    const Eigen::Vector3d corner_camera = T_map_camera.inverse() * piece.believed.T_map_model * box_model.corner(corner);
+    if (corner_camera.z() < 0.1) {
+      return {0, 0, camera.width, camera.height};
+    }
+    box.extend(camera.project(corner_camera));
+  }
+  const Eigen::Vector2d margin = kMargin * box.sizes();
+  const Eigen::Array2d low = (box.min() - margin).array().max(0.0);
+  const Eigen::Array2d high = (box.max() + margin).array().min(Eigen::Array2d(camera.width, camera.height));
+  return {static_cast<int>(low.x()), static_cast<int>(low.y()), static_cast<int>(high.x()), static_cast<int>(high.y())};
+}
+
+}  // namespace
+
+/// What is known of a piece so far.
+struct StateReader::Track {
+  std::unique_ptr<registration::ArticulatedRegistration> registration;  ///< from the first image on
+  std::set<int> wanted;                                                 ///< indices of the frames
+  std::vector<Shot> shots;                                              ///< in the order of time
+  int frames_in_view = 0;
+
+  /// By joint of the registration.
+  [[nodiscard]] std::vector<std::vector<JointSpan>> spans(const std::vector<SeenFrame>& frames,
+                                                          const registration::JointFusionConfig& config) const {
+    std::vector<std::vector<JointSpan>> spans;
+    for (std::size_t joint = 0; !shots.empty() && joint < shots.front().joints.size(); ++joint) {
+      spans.push_back(registration::fuse(sightingsOf(shots, joint, frames), config));
+    }
+    return spans;
+  }
+};
+
+StateReader::StateReader(const semantic::Home& home, const std::filesystem::path& home_folder, const camera::PinholeCamera& camera,
+                         const StateConfig& config, int threads, const std::string& only)
+    : camera_(camera),
+      config_(config),
+      threads_(threads),
+      pieces_(articulatedPieces(home, home_folder, only)),
+      views_(home, home_folder, pieces_, config.frames) {
+  OIKOS_CHECK(base::validateConfig(config).empty());
+  config_.registration.threads = 1;  // the pieces of a frame share the threads
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    tracks_.push_back(std::make_unique<Track>());
+  }
+}
+
+StateReader::~StateReader() = default;
+
+void StateReader::look(const camera::RgbdFrame& frame, const LocatedPose& pose) {
+  OIKOS_CHECK(!has_chosen_ && (frames_.empty() || frames_.back().frame < frame.index));
+  if (pose.source == PoseSource::kNone) {
+    return;
+  }
+  frames_.push_back(views_.look(frame, camera_, pose));
+  for (const PieceSight& sight : frames_.back().sights) {
+    ++tracks_[static_cast<std::size_t>(sight.piece)]->frames_in_view;
+  }
+}
+
+const SeenFrame& StateReader::seen(int frame) const {
+  const auto found = std::lower_bound(frames_.begin(), frames_.end(), frame, [](const SeenFrame& one, int f) { return one.frame < f; });
+  OIKOS_CHECK(found != frames_.end() && found->frame == frame);
+  return *found;
+}
+
+std::vector<int> StateReader::wanted() {
+  if (!has_chosen_) {
+    has_chosen_ = true;
+    chooseFirst();
+  } else if (halvings_ < config_.frames.most_halvings) {
+    ++halvings_;
+    halve();
+  }
+  std::set<int> numbers;
+  for (const auto& track : tracks_) {
+    for (const int index : track->wanted) {
+      numbers.insert(frames_[static_cast<std::size_t>(index)].frame);
+    }
+  }
+  return {numbers.begin(), numbers.end()};
+}
+
+void StateReader::chooseFirst() {
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const std::vector<int> chosen = chooseFrames(frames_, static_cast<int>(p), config_.frames);
+    tracks_[p]->wanted = {chosen.begin(), chosen.end()};
+  }
+}
+
+/// Between images that disagree about a joint, nearer to the moment.
+void StateReader::halve() {
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    Track& track = *tracks_[p];
+    for (const std::vector<JointSpan>& spans : track.spans(frames_, config_.fusion)) {
+      for (std::size_t k = 0; k + 1 < spans.size(); ++k) {
+        const auto between =
+            frameBetween(frames_, static_cast<int>(p), track.shots[spans[k].last].index, track.shots[spans[k + 1].first].index);
+        const auto is_known = [&](const Shot& shot) { return between && shot.index == *between; };
+        if (between && std::none_of(track.shots.begin(), track.shots.end(), is_known)) {
+          track.wanted.insert(*between);
+        }
+      }
+    }
+  }
+}
+
+/// What the frame's pose and the piece's place may be off, at the piece.
+registration::BaseSigma StateReader::sigmaOf(const SeenFrame& frame, const ArticulatedPiece& piece) const {
+  const bool is_fixed = piece.movability == semantic::Movability::kFixed;
+  const double placed_m = is_fixed ? config_.placement.fixed_sigma_m : config_.placement.shiftable_sigma_m;
+  const double placed_deg = is_fixed ? config_.placement.fixed_sigma_deg : config_.placement.shiftable_sigma_deg;
+  const Eigen::Vector3d middle_camera = frame.T_map_camera.inverse() * piece.believed.T_map_model * piece.box_model.center();
+  Eigen::Matrix<double, 3, 6> J;  // of T exp(xi) p: R (v + w x p)
+  J << Eigen::Matrix3d::Identity(), -geometry::skew(middle_camera);
+  const Eigen::Matrix3d R = frame.T_map_camera.linear();
+  const Eigen::Matrix3d at_piece = R * J * frame.covariance * J.transpose() * R.transpose();
+  const Eigen::Matrix3d turn = R * frame.covariance.bottomRightCorner<3, 3>() * R.transpose();
+  const double located_sq = 0.5 * (at_piece(0, 0) + at_piece(1, 1));
+  return {std::sqrt(placed_m * placed_m + located_sq), std::hypot(placed_deg, std::sqrt(turn(2, 2)) / base::kRadPerDeg)};
+}
+
+void StateReader::read(const std::vector<camera::RgbdFrame>& frames) {
+  std::vector<registration::Scan> scans(frames.size());
+  base::parallelFor(static_cast<int>(frames.size()), threads_, [&](int i) {
+    const auto f = static_cast<std::size_t>(i);
+    scans[f] = registration::makeScan(frames[f].depth_m, camera_, config_.scan);
+  });
+  base::parallelFor(static_cast<int>(tracks_.size()), threads_, [&](int p) {
+    const auto piece = static_cast<std::size_t>(p);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      const SeenFrame& frame = seen(frames[f].index);
+      if (tracks_[piece]->wanted.erase(static_cast<int>(&frame - frames_.data())) > 0) {
+        registerIn(piece, frame, scans[f]);
+      }
+    }
+  });
+}
+
+void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const registration::Scan& scan) {
+  Track& track = *tracks_[piece];
+  const ArticulatedPiece& of = pieces_[piece];
+  if (!track.registration) {
+    track.registration = std::make_unique<registration::ArticulatedRegistration>(of.model, config_.registration);
+  }
+  registration::ArticulatedResult result = track.registration->run(scan, frame.T_map_camera, of.believed, sigmaOf(frame, of));
+  const int index = static_cast<int>(&frame - frames_.data());
+  const auto after = std::find_if(track.shots.begin(), track.shots.end(), [&](const Shot& shot) { return shot.index > index; });
+  track.shots.insert(after, {index, result.status, std::move(result.joints)});
+}
+
+std::vector<PieceReading> StateReader::conclude() const {
+  std::vector<PieceReading> readings;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const Track& track = *tracks_[p];
+    if (track.frames_in_view == 0) {
+      continue;
+    }
+    PieceReading reading{pieces_[p].id, track.frames_in_view, static_cast<int>(track.shots.size()), 0, {}};
+    for (const Shot& shot : track.shots) {
+      reading.not_there += shot.base == registration::BaseStatus::kNotThere ? 1 : 0;
+    }
+    const std::vector<std::vector<JointSpan>> spans = track.spans(frames_, config_.fusion);
+    for (std::size_t j = 0; j < spans.size(); ++j) {
+      const semantic::Joint& joint = pieces_[p].joints[static_cast<std::size_t>(track.shots.front().joints[j].joint)];
+      JointReading of_joint{joint.id, joint.type, {}};
+      for (const JointSpan& span : spans[j]) {
+        JointStay stay = stayOf(span, track.shots, j, frames_);
+        stay.crop = cropOf(pieces_[p], track.shots.front().joints[j].joint, span.value, seen(stay.best_frame).T_map_camera, camera_);
+        of_joint.stays.push_back(stay);
+      }
+      reading.joints.push_back(std::move(of_joint));
+    }
+    readings.push_back(std::move(reading));
+  }
+  return readings;
+}
+
+}  // namespace oikos::tracking

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Doors and drawers over a recording: its frames are located and looked at once, then those that tell most are registered.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/camera/pinhole_camera.h"
+#include "core/camera/rgbd_frame.h"
+#include "registration/articulated/joint_fusion.h"
+#include "semantic/model/home.h"
+#include "tracking/localisation/localiser.h"
+#include "tracking/state/articulated_pieces.h"
+#include "tracking/state/piece_views.h"
+#include "tracking/state/state_config.h"
+
+namespace oikos::tracking {
+
+/// A time in which a joint stood still.
+struct JointStay {
+  registration::JointSpan span;  ///< its indices mean nothing here
+  int first_frame = 0;           ///< of the recording
+  int images = 0;
+  int found = 0;                ///< of these, images that have found it by themselves
+  int best_frame = 0;           ///< that shows most of the part,
+  registration::PixelBox crop;  ///< and where the piece is in it
+
+  [[nodiscard]] bool isFound() const { return span.status == registration::JointStatus::kFound; }
+};
+
+/// What a recording says of a joint.
+struct JointReading {
+  semantic::JointId id;
+  semantic::JointType type = semantic::JointType::kRevolute;
+  std::vector<JointStay> stays;  ///< in the order of time; empty: no image sees it
+};
+
+/// What a recording says of a piece.
+struct PieceReading {
+  semantic::ObjectId id;
+  int frames_in_view = 0;
+  int images = 0;     ///< that were registered,
+  int not_there = 0;  ///< of these, that do not show it where it is believed to be
+  std::vector<JointReading> joints;
+};
+
+/// Not thread-safe; uses `threads` threads inside, on which the result does not depend.
+class StateReader {
+ public:
+  /// `home`: as it is believed at the recording's time. `only`: one piece. Throws as articulatedPieces(), ContractViolation for a
+  /// configuration that is not valid.
+  StateReader(const semantic::Home& home, const std::filesystem::path& home_folder, const camera::PinholeCamera& camera,
+              const StateConfig& config, int threads, const std::string& only = {});
+  ~StateReader();
+  StateReader(const StateReader&) = delete;
+  StateReader& operator=(const StateReader&) = delete;
+
+  /// Every frame in the order of time, and where it was; one that was not found is passed over. `depth_m` is needed. What is kept of a
+  /// frame is its pose.
+  void look(const camera::RgbdFrame& frame, const LocatedPose& pose);
+
+  /// After all of look(): the frames of the recording to be read next, ascending; again and again until there is none.
+  [[nodiscard]] std::vector<int> wanted();
+  /// Some of those. They share the threads.
+  void read(const std::vector<camera::RgbdFrame>& frames);
+
+  /// Pieces that no frame sees are left out.
+  [[nodiscard]] std::vector<PieceReading> conclude() const;
+  [[nodiscard]] const std::vector<ArticulatedPiece>& pieces() const { return pieces_; }
+  /// Where a frame was; it was looked at and found.
+  [[nodiscard]] const SeenFrame& seen(int frame) const;
+
+ private:
+  struct Track;
+
+  void chooseFirst();
+  void halve();
+  void registerIn(std::size_t piece, const SeenFrame& frame, const registration::Scan& scan);
+  [[nodiscard]] registration::BaseSigma sigmaOf(const SeenFrame& frame, const ArticulatedPiece& piece) const;
+
+  camera::PinholeCamera camera_;
+  StateConfig config_;
+  int threads_;
+  std::vector<ArticulatedPiece> pieces_;
+  PieceViews views_;
+  std::vector<SeenFrame> frames_;
+  std::vector<std::unique_ptr<Track>> tracks_;  ///< by piece
+  bool has_chosen_ = false;
+  int halvings_ = 0;
+};
+
+}  // namespace oikos::tracking
