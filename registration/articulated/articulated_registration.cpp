@@ -41,14 +41,15 @@ class Run {
     }
   }
 
-  ArticulatedResult run(const Scan& whole_scan) {
+  ArticulatedResult run(const Scan& whole_scan, const Surroundings& surroundings) {
     const PixelWindow window = windowOfAll(whole_scan.camera);
     if (window.isEmpty()) {
       return result({.base_covariance = priorCovariance(config_.solver), .variances = {}, .shared_variances = {}, .counts = {}});
     }
     const Scan scan = cropped(whole_scan, window);
     const Scan thin = thinned(scan, config_.coarse_thinning);
-    JointProfiler profiler(tree_, layers_, thin, T_map_camera_, mixture_);
+    const PixelBox box{window.left, window.top, window.left + window.width, window.top + window.height};
+    JointProfiler profiler(tree_, layers_, thin, T_map_camera_, mixture_, thinned(cropped(surroundings, box), config_.coarse_thinning));
     JointSolver solver(tree_, whole_, scan, mixture_, config_.solver, T_map_camera_, believed_.T_map_model);
     lookForJoints(profiler);
     settleRivals(profiler, solver);
@@ -307,16 +308,16 @@ ArticulatedRegistration::ArticulatedRegistration(const model::ArticulatedModel& 
 
 ArticulatedResult ArticulatedRegistration::run(const Scan& scan, const Eigen::Isometry3d& T_map_camera, const Standing& believed) {
   OIKOS_CHECK(believed.joint_values.size() == tree_.model().joints.size());
-  return Run(tree_, config_, mixture_, layers_, whole_, T_map_camera, believed).run(scan);
+  return Run(tree_, config_, mixture_, layers_, whole_, T_map_camera, believed).run(scan, {});
 }
 
 ArticulatedResult ArticulatedRegistration::run(const Scan& scan, const Eigen::Isometry3d& T_map_camera, const Standing& believed,
-                                               const BaseSigma& sigma) {
-  OIKOS_CHECK(believed.joint_values.size() == tree_.model().joints.size() && sigma.position_m > 0.0 && sigma.yaw_deg > 0.0);
+                                               const ImageContext& context) {
+  OIKOS_CHECK(believed.joint_values.size() == tree_.model().joints.size() && context.base_sigma_m > 0.0 && context.base_sigma_deg > 0.0);
   ArticulatedConfig config = config_;
-  config.solver.base_sigma_m = sigma.position_m;
-  config.solver.base_sigma_deg = sigma.yaw_deg;
-  return Run(tree_, config, mixture_, layers_, whole_, T_map_camera, believed).run(scan);
+  config.solver.base_sigma_m = context.base_sigma_m;
+  config.solver.base_sigma_deg = context.base_sigma_deg;
+  return Run(tree_, config, mixture_, layers_, whole_, T_map_camera, believed).run(scan, context.surroundings);
 }
 
 }  // namespace oikos::registration

@@ -102,10 +102,11 @@ struct [[nodiscard]] ArticulatedResult {
   [[nodiscard]] const JointEstimate* find(const std::string& joint_name) const;
 };
 
-/// How well a camera and the place where a piece is believed to stand agree: standard deviations.
-struct BaseSigma {
-  double position_m = 0.0;  ///< in x and in y
-  double yaw_deg = 0.0;
+/// What is known of one image beside its pose.
+struct ImageContext {
+  double base_sigma_m = 0.0;    ///< how well camera and believed place of the piece agree, in x and in y,
+  double base_sigma_deg = 0.0;  ///< and in yaw: standard deviations, in place of the configuration's
+  Surroundings surroundings;    ///< of the scan's size; empty: nothing is known of them
 };
 
 /// How far doors and drawers of a piece stand open in a depth image (S227-S235). Every value of each joint is compared with the image by
@@ -119,8 +120,8 @@ class ArticulatedRegistration {
   /// `believed`: where the piece is thought to stand (deviations: JointSolverConfig), and its joints; these only matter where nothing is
   /// seen of them.
   ArticulatedResult run(const Scan& scan, const Eigen::Isometry3d& T_map_camera, const Standing& believed);
-  /// The same, for this image in place of the configuration's deviations of the base; both must be above 0.
-  ArticulatedResult run(const Scan& scan, const Eigen::Isometry3d& T_map_camera, const Standing& believed, const BaseSigma& sigma);
+  /// The same with what is known of the image; both deviations must be above 0.
+  ArticulatedResult run(const Scan& scan, const Eigen::Isometry3d& T_map_camera, const Standing& believed, const ImageContext& context);
 
  private:
   JointTree tree_;

@@ -12,10 +12,11 @@ namespace oikos::registration {
 
 namespace {
 
-constexpr double kMinAlong = 0.05;  // a surface that is seen edge-on has its reading anywhere
+constexpr double kMinAlong = 0.05;      // a surface that is seen edge-on has its reading anywhere
+constexpr double kAboutSigma_m = 0.02;  // of walls and furniture that nobody has registered
 
-Eigen::Vector3d normalAt(const render::View& view, int u, int v) {
-  const auto& normal = view.normal_camera.at<cv::Vec3f>(v, u);
+Eigen::Vector3d normalAt(const cv::Mat& normal_camera, int u, int v) {
+  const auto& normal = normal_camera.at<cv::Vec3f>(v, u);
   return {static_cast<double>(normal[0]), static_cast<double>(normal[1]), static_cast<double>(normal[2])};
 }
 
@@ -37,9 +38,60 @@ void forEachSeen(const WindowView& seen, const Scan& scan, const Visit& visit) {
 
 }  // namespace
 
+Surroundings cropped(const Surroundings& surroundings, const PixelBox& box) {
+  if (surroundings.isEmpty()) {
+    return {};
+  }
+  const cv::Rect part(cv::Point(box.left, box.top), cv::Point(box.right, box.bottom));
+  return {surroundings.depth_m(part), surroundings.normal_camera(part)};
+}
+
+Surroundings thinned(const Surroundings& surroundings, int factor) {
+  if (surroundings.isEmpty()) {
+    return {};
+  }
+  const cv::Size size((surroundings.depth_m.cols + factor - 1) / factor, (surroundings.depth_m.rows + factor - 1) / factor);
+  Surroundings thin{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_32FC3)};
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      thin.depth_m.at<float>(v, u) = surroundings.depth_m.at<float>(factor * v, factor * u);
+      thin.normal_camera.at<cv::Vec3f>(v, u) = surroundings.normal_camera.at<cv::Vec3f>(factor * v, factor * u);
+    }
+  }
+  return thin;
+}
+
 JointProfiler::JointProfiler(const JointTree& tree, LinkLayers& layers, const Scan& scan, const Eigen::Isometry3d& T_map_camera,
-                             const PixelMixture& mixture)
-    : tree_(tree), layers_(layers), scan_(scan), T_camera_map_(T_map_camera.inverse()), mixture_(mixture) {}
+                             const PixelMixture& mixture, const Surroundings& surroundings)
+    : tree_(tree), layers_(layers), scan_(scan), T_camera_map_(T_map_camera.inverse()), mixture_(mixture) {
+  if (!surroundings.isEmpty()) {
+    explainBy(surroundings);
+  }
+}
+
+void JointProfiler::explainBy(const Surroundings& surroundings) {
+  OIKOS_CHECK(surroundings.depth_m.size() == cv::Size(scan_.camera.width, scan_.camera.height));
+  about_.resize(scan_.points.size());
+  std::size_t pixel = 0;
+  for (int v = 0; v < scan_.camera.height; ++v) {
+    for (int u = 0; u < scan_.camera.width; ++u, ++pixel) {
+      const auto depth_m = static_cast<double>(surroundings.depth_m.at<float>(v, u));
+      const ScanPoint& seen = scan_.points[pixel];
+      if (!(depth_m > 0.0) || seen.point_camera.z() <= 0.0F) {
+        continue;
+      }
+      const auto reading_m = static_cast<double>(seen.point_camera.z());
+      const Eigen::Vector3d normal_camera = normalAt(surroundings.normal_camera, u, v);
+      const Eigen::Vector3d ray = seen.point_camera.cast<double>() / reading_m;
+      const double along = std::max(kMinAlong, -normal_camera.dot(ray));
+      ModelledPixel surface;
+      surface.depth_m = depth_m;
+      surface.sigma_m = std::hypot(residualSigma_m(reading_m, along / ray.norm()), kAboutSigma_m) / along;
+      surface.faces = seen.normal_camera.isZero() || seen.normal_camera.cast<double>().dot(normal_camera) > mixture_.minNormalCos();
+      about_[pixel] = {depth_m, std::max(mixture_.logOfSurface(reading_m, surface), mixture_.logOfNothing())};
+    }
+  }
+}
 
 Eigen::Isometry3d JointProfiler::T_camera_link(int link) const {
   const int part = tree_.links()[static_cast<std::size_t>(link)].parts.front();
@@ -88,8 +140,11 @@ void JointProfiler::choose(int link) {
     if (owner >= 0) {
       const WindowView& seen = views_[static_cast<std::size_t>(owner)];
       rest_[pixel].log_density =
-          logOf(pixel, rest_[pixel].depth_m, normalAt(seen.view, place % seen.window.width, place / seen.window.width), owner,
+          logOf(pixel, rest_[pixel].depth_m, normalAt(seen.view.normal_camera, place % seen.window.width, place / seen.window.width), owner,
                 T_link_camera[static_cast<std::size_t>(owner)]);
+    }
+    if (!about_.empty() && about_[pixel].depth_m < rest_[pixel].depth_m) {  // it hides nothing: where it stands is not known so well
+      rest_[pixel].log_density = owner >= 0 ? std::max(rest_[pixel].log_density, about_[pixel].log_density) : about_[pixel].log_density;
     }
   }
 }
@@ -134,7 +189,7 @@ ValueScore JointProfiler::score(double value, const Eigen::Vector3d& shift_map) 
       return;
     }
     ModelledPixel surface;
-    const double log_density = logOf(pixel, depth_m, normalAt(seen.view, u, v), link_, T_link_camera, &surface);
+    const double log_density = logOf(pixel, depth_m, normalAt(seen.view.normal_camera, u, v), link_, T_link_camera, &surface);
     const double deviations = (static_cast<double>(scan_.points[pixel].point_camera.z()) - depth_m) / surface.sigma_m;
     score.log_likelihood += log_density - rest.log_density;
     ++score.pixels;

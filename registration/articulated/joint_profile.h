@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "registration/articulated/joint_tree.h"
@@ -19,6 +20,18 @@ struct Standing {
   std::vector<double> joint_values;  ///< one a joint of the model
 };
 
+/// What stands about the model and is known, as the scan's camera sees it without the model: `depth_m` (CV_32FC1, NaN: nothing known) and
+/// `normal_camera` (CV_32FC3) of the scan's size. A wall explains its readings, and no door need lie before it to do so.
+struct Surroundings {
+  cv::Mat depth_m;
+  cv::Mat normal_camera;
+
+  [[nodiscard]] bool isEmpty() const { return depth_m.empty(); }
+};
+[[nodiscard]] Surroundings cropped(const Surroundings& surroundings, const PixelBox& box);
+/// Every `factor`-th pixel.
+[[nodiscard]] Surroundings thinned(const Surroundings& surroundings, int factor);
+
 /// What one value of a joint does with the readings.
 struct ValueScore {
   double log_likelihood = 0.0;  ///< over that of the model without the link, summed over pixels
@@ -31,12 +44,13 @@ struct ValueScore {
 /// thread-safe.
 class JointProfiler {
  public:
-  /// `sigma_m`: of surfaces from where the model has them, whatever it comes from; all of these are kept by reference.
+  /// Tree, layers, scan and mixture are kept by reference. `surroundings`: of the scan's size, or empty.
   JointProfiler(const JointTree& tree, LinkLayers& layers, const Scan& scan, const Eigen::Isometry3d& T_map_camera,
-                const PixelMixture& mixture);
+                const PixelMixture& mixture, const Surroundings& surroundings = {});
 
   enum class Others { kBaseOnly, kAll };
   /// Where the model stands meanwhile, and which other links are believed to be there.
+  /// `sigma_m`: of surfaces from where the model has them, whatever it comes from.
   void stand(const Standing& standing, Others others, double sigma_m);
 
   /// The link to be scored next.
@@ -52,6 +66,7 @@ class JointProfiler {
   [[nodiscard]] double logOf(std::size_t pixel, double depth_m, const Eigen::Vector3d& normal_camera, int link,
                              const Eigen::Isometry3d& T_link_camera, ModelledPixel* surface = nullptr) const;
   [[nodiscard]] Eigen::Isometry3d T_camera_link(int link) const;
+  void explainBy(const Surroundings& surroundings);
 
   const JointTree& tree_;
   LinkLayers& layers_;
@@ -63,7 +78,8 @@ class JointProfiler {
   std::vector<Eigen::Isometry3d> T_model_part_;
   std::vector<WindowView> views_;  ///< by link, each without what hangs on it; empty ones are not there
   int link_ = 0;
-  std::vector<Rest> rest_;  ///< by pixel, without the chosen link
+  std::vector<Rest> about_;  ///< by pixel, the surroundings; empty: nothing is known of them
+  std::vector<Rest> rest_;   ///< by pixel, without the chosen link
 };
 
 }  // namespace oikos::registration

@@ -10,46 +10,21 @@
 
 #include "core/base/error.h"
 #include "core/base/nearest_name.h"
-#include "core/geometry/outline_area.h"
-#include "core/model/primitives.h"
 #include "core/model/triangle_mesh.h"
 #include "semantic/model/home_models.h"
+#include "tracking/localisation/room_walls.h"
 
 namespace oikos::tracking {
 
 namespace {
 
-constexpr double kWallHeight_m = 2.5;
 constexpr double kBehind_m = 0.05;  ///< outwards of the outline: what hangs on the wall stays before it, the next room's behind it
-constexpr double kThickness_m = 0.01;
-constexpr double kAtWall_m = 0.5;  ///< from a wall to the middle of a piece that stands at it
-
-/// One wall of an outline, `behind_m` outwards of it.
-struct Wall {
-  model::TriangleMesh mesh_wall;
-  Eigen::Isometry3d T_map_wall;
-};
-
-std::vector<Wall> wallsOf(const std::vector<Eigen::Vector2d>& outline_map, double behind_m) {
-  std::vector<Wall> walls;
-  const double side = geometry::signedDoubleArea(outline_map) > 0.0 ? 1.0 : -1.0;
-  for (std::size_t i = 0; i < outline_map.size(); ++i) {
-    const Eigen::Vector2d& from = outline_map[i];
-    const Eigen::Vector2d along = outline_map[(i + 1) % outline_map.size()] - from;
-    const Eigen::Vector2d outwards = side * Eigen::Vector2d(along.y(), -along.x()).normalized();
-    const Eigen::Vector2d middle = from + 0.5 * along + (behind_m + 0.5 * kThickness_m) * outwards;
-    const Eigen::Isometry3d T_map_wall = Eigen::Translation3d(middle.x(), middle.y(), 0.5 * kWallHeight_m) *
-                                         Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ());
-    walls.push_back(
-        {model::makeBox(Eigen::Vector3d(along.norm() + 2.0 * behind_m, kThickness_m, kWallHeight_m).cast<float>()), T_map_wall});
-  }
-  return walls;
-}
+constexpr double kAtWall_m = 0.5;   ///< from a wall to the middle of a piece that stands at it
 
 /// Nothing is seen through a wall. (Nor through its open doors, as far as this goes.)
 void addOccluders(const semantic::Room& room, registration::LandmarkScene& landmarks) {
   model::TriangleMesh walls;
-  for (const Wall& wall : wallsOf(room.outline_map, kBehind_m)) {
+  for (const RoomWall& wall : wallsOf(room.outline_map, kBehind_m)) {
     append(walls, wall.mesh_wall, wall.T_map_wall);
   }
   landmarks.addOccluder(walls);
@@ -75,14 +50,14 @@ bool isLeftOut(const std::string& id, const LandmarkChoice& choice) {
 }
 
 void addWalls(const semantic::Room& room, const LandmarkChoice& choice, registration::LandmarkScene& landmarks) {
-  const std::vector<Wall> walls = wallsOf(room.outline_map, 0.0);
+  const std::vector<RoomWall> walls = wallsOf(room.outline_map, 0.0);
   for (std::size_t i = 0; i < walls.size(); ++i) {
     model::ArticulatedModel model;
     model.name = room.id.value + "/wall-" + std::to_string(i + 1);  // no piece can be called so
     if (isLeftOut(model.name, choice) || !hasFurniture(room, i)) {
       continue;
     }
-    const Wall& wall = walls[i];
+    const RoomWall& wall = walls[i];
     model.parts.push_back({"wall", std::make_shared<const model::TriangleMesh>(wall.mesh_wall)});
     landmarks.add(model.name, model, wall.T_map_wall, {});
   }

@@ -22,6 +22,26 @@ Localiser::Localiser(const LocaliserTools& tools, const LocaliseConfig& config) 
 }
 
 LocatedPose Localiser::add(const camera::RgbdFrame& frame) {
+  LocatedPose located = locate(frame);
+  refine(frame, located);
+  if (located.source != PoseSource::kNone) {
+    last_ = located;
+  }
+  return located;
+}
+
+LocatedPose Localiser::addUnrefined(const camera::RgbdFrame& frame) {
+  LocatedPose located = locate(frame);
+  if (located.source == PoseSource::kNone) {
+    refine(frame, located);
+  }
+  if (located.source != PoseSource::kNone) {
+    last_ = located;
+  }
+  return located;
+}
+
+LocatedPose Localiser::locate(const camera::RgbdFrame& frame) {
   LocatedPose located;
   located.frame = frame.index;
   located.stamp_ns = frame.stamp_ns;
@@ -35,12 +55,6 @@ LocatedPose Localiser::add(const camera::RgbdFrame& frame) {
       located.covariance = located.in_map.covariance;
       located.T_map_camera_before = located.T_map_camera;
     }
-  }
-  if (tools_.furniture != nullptr && located.T_map_camera_before) {
-    refine(frame, located);
-  }
-  if (located.source != PoseSource::kNone) {
-    last_ = located;
   }
   return located;
 }
@@ -59,7 +73,10 @@ std::optional<Eigen::Isometry3d> Localiser::predict(std::int64_t stamp_ns) const
   return T_last_now ? last_->T_map_camera * *T_last_now : last_->T_map_camera;
 }
 
-void Localiser::refine(const camera::RgbdFrame& frame, LocatedPose& located) {
+void Localiser::refine(const camera::RgbdFrame& frame, LocatedPose& located) const {
+  if (tools_.furniture == nullptr || !located.T_map_camera_before || located.landmarks) {
+    return;
+  }
   const bool in_map = located.source == PoseSource::kMap;
   registration::CameraPrior prior;
   prior.T_map_camera = *located.T_map_camera_before;

@@ -88,10 +88,14 @@ class Localiser {
 
   /// `frame.gray` and `depth_m` are needed.
   LocatedPose add(const camera::RgbdFrame& frame);
+  /// The same, but a frame that the map has found is not refined by furniture: where only some of the frames matter, refine() these.
+  LocatedPose addUnrefined(const camera::RgbdFrame& frame);
+  /// By the furniture in view, if there is some; one that was refined before stays as it is. In any order.
+  void refine(const camera::RgbdFrame& frame, LocatedPose& located) const;
 
  private:
+  [[nodiscard]] LocatedPose locate(const camera::RgbdFrame& frame);
   [[nodiscard]] std::optional<Eigen::Isometry3d> predict(std::int64_t stamp_ns) const;
-  void refine(const camera::RgbdFrame& frame, LocatedPose& located);
 
   LocaliserTools tools_;
   LocaliseConfig config_;

@@ -51,7 +51,7 @@ PieceViews::PieceViews(const semantic::Home& home, const std::filesystem::path& 
 }
 
 SeenFrame PieceViews::look(const camera::RgbdFrame& frame, const camera::PinholeCamera& camera, const LocatedPose& pose) const {
-  SeenFrame seen{frame.index, frame.stamp_ns, pose.T_map_camera, pose.covariance, {}};
+  SeenFrame seen{frame.index, frame.stamp_ns, pose.source, pose.T_map_camera, pose.covariance, {}};
   const std::vector<int> pixels = furniture_.countInView(pointsOf(frame.depth_m, camera, config_), pose.T_map_camera, 1);
   std::vector<int> of_piece(pieces_.size(), 0);
   for (std::size_t s = 0; s < pixels.size(); ++s) {

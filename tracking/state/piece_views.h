@@ -28,6 +28,7 @@ struct PieceSight {
 struct SeenFrame {
   int frame = -1;  ///< of the recording
   std::int64_t stamp_ns = 0;
+  PoseSource source = PoseSource::kNone;
   Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
   std::vector<PieceSight> sights;  ///< ascending

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "core/base/config.h"
@@ -83,7 +84,8 @@ registration::PixelBox cropOf(const ArticulatedPiece& piece, int joint, double v
 
 /// What is known of a piece so far.
 struct StateReader::Track {
-  std::unique_ptr<registration::ArticulatedRegistration> registration;  ///< from the first image on
+  std::unique_ptr<registration::ArticulatedRegistration> registration;  ///< from the first image on,
+  std::optional<render::Scene> about;                                   ///< and this, too
   std::set<int> wanted;                                                 ///< indices of the frames
   std::vector<Shot> shots;                                              ///< in the order of time
   int frames_in_view = 0;
@@ -105,7 +107,8 @@ StateReader::StateReader(const semantic::Home& home, const std::filesystem::path
       config_(config),
       threads_(threads),
       pieces_(articulatedPieces(home, home_folder, only)),
-      views_(home, home_folder, pieces_, config.frames) {
+      views_(home, home_folder, pieces_, config.frames),
+      surroundings_(home, home_folder) {
   OIKOS_CHECK(base::validateConfig(config).empty());
   config_.registration.threads = 1;  // the pieces of a frame share the threads
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -130,6 +133,13 @@ const SeenFrame& StateReader::seen(int frame) const {
   const auto found = std::lower_bound(frames_.begin(), frames_.end(), frame, [](const SeenFrame& one, int f) { return one.frame < f; });
   OIKOS_CHECK(found != frames_.end() && found->frame == frame);
   return *found;
+}
+
+void StateReader::place(int frame, const LocatedPose& pose) {
+  SeenFrame& placed = frames_[static_cast<std::size_t>(&seen(frame) - frames_.data())];
+  placed.source = pose.source;
+  placed.T_map_camera = pose.T_map_camera;
+  placed.covariance = pose.covariance;
 }
 
 std::vector<int> StateReader::wanted() {
@@ -174,7 +184,7 @@ void StateReader::halve() {
 }
 
 /// What the frame's pose and the piece's place may be off, at the piece.
-registration::BaseSigma StateReader::sigmaOf(const SeenFrame& frame, const ArticulatedPiece& piece) const {
+registration::ImageContext StateReader::contextOf(const SeenFrame& frame, const ArticulatedPiece& piece) const {
   const bool is_fixed = piece.movability == semantic::Movability::kFixed;
   const double placed_m = is_fixed ? config_.placement.fixed_sigma_m : config_.placement.shiftable_sigma_m;
   const double placed_deg = is_fixed ? config_.placement.fixed_sigma_deg : config_.placement.shiftable_sigma_deg;
@@ -185,7 +195,7 @@ registration::BaseSigma StateReader::sigmaOf(const SeenFrame& frame, const Artic
   const Eigen::Matrix3d at_piece = R * J * frame.covariance * J.transpose() * R.transpose();
   const Eigen::Matrix3d turn = R * frame.covariance.bottomRightCorner<3, 3>() * R.transpose();
   const double located_sq = 0.5 * (at_piece(0, 0) + at_piece(1, 1));
-  return {std::sqrt(placed_m * placed_m + located_sq), std::hypot(placed_deg, std::sqrt(turn(2, 2)) / base::kRadPerDeg)};
+  return {std::sqrt(placed_m * placed_m + located_sq), std::hypot(placed_deg, std::sqrt(turn(2, 2)) / base::kRadPerDeg), {}};
 }
 
 void StateReader::read(const std::vector<camera::RgbdFrame>& frames) {
@@ -210,8 +220,11 @@ void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const re
   const ArticulatedPiece& of = pieces_[piece];
   if (!track.registration) {
     track.registration = std::make_unique<registration::ArticulatedRegistration>(of.model, config_.registration);
+    track.about = surroundings_.sceneWithout(of);
   }
-  registration::ArticulatedResult result = track.registration->run(scan, frame.T_map_camera, of.believed, sigmaOf(frame, of));
+  registration::ImageContext context = contextOf(frame, of);
+  context.surroundings = viewOf(*track.about, scan.camera, frame.T_map_camera);
+  registration::ArticulatedResult result = track.registration->run(scan, frame.T_map_camera, of.believed, context);
   const int index = static_cast<int>(&frame - frames_.data());
   const auto after = std::find_if(track.shots.begin(), track.shots.end(), [&](const Shot& shot) { return shot.index > index; });
   track.shots.insert(after, {index, result.status, std::move(result.joints)});

@@ -14,6 +14,7 @@
 #include "semantic/model/home.h"
 #include "tracking/localisation/localiser.h"
 #include "tracking/state/articulated_pieces.h"
+#include "tracking/state/piece_surroundings.h"
 #include "tracking/state/piece_views.h"
 #include "tracking/state/state_config.h"
 
@@ -64,6 +65,8 @@ class StateReader {
 
   /// After all of look(): the frames of the recording to be read next, ascending; again and again until there is none.
   [[nodiscard]] std::vector<int> wanted();
+  /// A better pose of one of those.
+  void place(int frame, const LocatedPose& pose);
   /// Some of those. They share the threads.
   void read(const std::vector<camera::RgbdFrame>& frames);
 
@@ -79,13 +82,14 @@ class StateReader {
   void chooseFirst();
   void halve();
   void registerIn(std::size_t piece, const SeenFrame& frame, const registration::Scan& scan);
-  [[nodiscard]] registration::BaseSigma sigmaOf(const SeenFrame& frame, const ArticulatedPiece& piece) const;
+  [[nodiscard]] registration::ImageContext contextOf(const SeenFrame& frame, const ArticulatedPiece& piece) const;
 
   camera::PinholeCamera camera_;
   StateConfig config_;
   int threads_;
   std::vector<ArticulatedPiece> pieces_;
   PieceViews views_;
+  HomeSurroundings surroundings_;
   std::vector<SeenFrame> frames_;
   std::vector<std::unique_ptr<Track>> tracks_;  ///< by piece
   bool has_chosen_ = false;
