@@ -217,10 +217,12 @@ void addEvaluateCommand(CLI::App& root) {
   CLI::App& evaluate = addCommand(root, {"evaluate", "Measures results against truth with the field's metrics.",
                                          "  oikos evaluate trajectory home/map/trajectory.txt drive/groundtruth.txt\n"
                                          "  oikos evaluate map home/map/cloud.ply scan.ply\n"
+                                         "  oikos evaluate states home drive\n"
                                          "  oikos evaluate tags drive --out tags.txt"});
   addTrajectoryEvaluation(evaluate);
   addMapEvaluation(evaluate);
   addTagEvaluation(evaluate);
+  addStateEvaluation(evaluate);
 }
 
 }  // namespace oikos::tools

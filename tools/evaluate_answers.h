@@ -42,5 +42,7 @@ inline nlohmann::ordered_json statisticsJson(const metrics::ErrorStatistics& sta
 
 /// tools/evaluate_tags.cpp
 void addTagEvaluation(CLI::App& evaluate);
+/// tools/evaluate_states.cpp
+void addStateEvaluation(CLI::App& evaluate);
 
 }  // namespace oikos::tools

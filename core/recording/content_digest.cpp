@@ -14,12 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// With its length before it: where one file ends and the next begins is part of the content. A missing one differs from an empty one.
+/// With its length before it: where one file ends and the next begins is part of the content.
 void addFile(const fs::path& file, base::Sha256& sum) {
-  if (!fs::exists(file)) {
-    sum.add("missing\n");
-    return;
-  }
   const std::string content = base::readFile(file);
   sum.add(std::to_string(content.size()) + "\n");
   sum.add(content);
@@ -34,7 +30,10 @@ std::string contentDigest(const fs::path& folder) {
       is_tum ? listTum(folder, std::llround(RecordingConfig().max_association_s * 1e9)) : listSevenScenes(folder, kAnyRate_hz);
   base::Sha256 sum;
   for (const char* const name : {"camera.toml", "rgb.txt", "depth.txt"}) {
-    addFile(folder / name, sum);
+    if (fs::exists(folder / name)) {
+      sum.add(name);
+      addFile(folder / name, sum);
+    }
   }
   for (const ListedFrame& frame : listing.frames) {
     sum.add(std::to_string(frame.stamp_ns) + "\n");

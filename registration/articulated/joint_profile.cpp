@@ -13,6 +13,7 @@ namespace oikos::registration {
 namespace {
 
 constexpr double kMinAlong = 0.05;      // a surface that is seen edge-on has its reading anywhere
+constexpr double kRefuted = 3.0;        // deviations
 constexpr double kAboutSigma_m = 0.02;  // of walls and furniture that nobody has registered
 
 Eigen::Vector3d normalAt(const cv::Mat& normal_camera, int u, int v) {
@@ -88,7 +89,9 @@ void JointProfiler::explainBy(const Surroundings& surroundings) {
       surface.depth_m = depth_m;
       surface.sigma_m = std::hypot(residualSigma_m(reading_m, along / ray.norm()), kAboutSigma_m) / along;
       surface.faces = seen.normal_camera.isZero() || seen.normal_camera.cast<double>().dot(normal_camera) > mixture_.minNormalCos();
-      about_[pixel] = {depth_m, std::max(mixture_.logOfSurface(reading_m, surface), mixture_.logOfNothing())};
+      if (reading_m - depth_m < kRefuted * surface.sigma_m) {  // else it is seen through: it is not there
+        about_[pixel] = {depth_m, std::max(mixture_.logOfSurface(reading_m, surface), mixture_.logOfNothing())};
+      }
     }
   }
 }
@@ -137,14 +140,13 @@ void JointProfiler::choose(int link) {
   for (std::size_t pixel = 0; pixel < rest_.size(); ++pixel) {
     const auto [owner, place] = shown[pixel];
     rest_[pixel].log_density = mixture_.logOfNothing();
-    if (owner >= 0) {
+    if (!about_.empty() && about_[pixel].depth_m < rest_[pixel].depth_m) {
+      rest_[pixel] = about_[pixel];
+    } else if (owner >= 0) {
       const WindowView& seen = views_[static_cast<std::size_t>(owner)];
       rest_[pixel].log_density =
           logOf(pixel, rest_[pixel].depth_m, normalAt(seen.view.normal_camera, place % seen.window.width, place / seen.window.width), owner,
                 T_link_camera[static_cast<std::size_t>(owner)]);
-    }
-    if (!about_.empty() && about_[pixel].depth_m < rest_[pixel].depth_m) {  // it hides nothing: where it stands is not known so well
-      rest_[pixel].log_density = owner >= 0 ? std::max(rest_[pixel].log_density, about_[pixel].log_density) : about_[pixel].log_density;
     }
   }
 }

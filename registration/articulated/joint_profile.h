@@ -21,7 +21,8 @@ struct Standing {
 };
 
 /// What stands about the model and is known, as the scan's camera sees it without the model: `depth_m` (CV_32FC1, NaN: nothing known) and
-/// `normal_camera` (CV_32FC3) of the scan's size. A wall explains its readings, and no door need lie before it to do so.
+/// `normal_camera` (CV_32FC3) of the scan's size. A wall explains its readings, and no door need lie before it to do so; nothing is seen of
+/// what lies behind it. Where a reading lies behind one of these surfaces, it is not there.
 struct Surroundings {
   cv::Mat depth_m;
   cv::Mat normal_camera;

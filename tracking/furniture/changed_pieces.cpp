@@ -68,6 +68,10 @@ Eigen::AlignedBox3d boxOf(const model::ArticulatedModel& model, const std::vecto
   return box;
 }
 
+Eigen::AlignedBox3d reachBoxOf(const model::ArticulatedModel& model, const std::vector<double>& believed) {
+  return boxOf(model, reachOf(model, believed));
+}
+
 std::vector<std::string> piecesOf(const std::vector<mapping::Change>& changes, const semantic::Home& home,
                                   const std::filesystem::path& home_folder) {
   std::vector<Reach> reaches;
@@ -75,7 +79,7 @@ std::vector<std::string> piecesOf(const std::vector<mapping::Change>& changes, c
   for (const semantic::Room& room : home.rooms) {
     for (const semantic::LargeObject& object : room.objects) {
       const model::ArticulatedModel model = maker.make(object);
-      Eigen::AlignedBox3d box = boxOf(model, reachOf(model, semantic::jointValues(object)));
+      const Eigen::AlignedBox3d box = reachBoxOf(model, semantic::jointValues(object));
       const Eigen::Vector3d around = Eigen::Vector3d::Constant(kAround_m);
       reaches.push_back({object.id.value, object.T_map_object.toIsometry(), {box.min() - around, box.max() + around}});
     }

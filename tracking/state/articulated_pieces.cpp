@@ -49,6 +49,7 @@ std::vector<ArticulatedPiece> articulatedPieces(const semantic::Home& home, cons
       piece.joints = object.articulation->joints;
       piece.believed = {object.T_map_object.toIsometry(), semantic::jointValues(object)};
       piece.box_model = boxOf(piece.model, {piece.believed.joint_values});
+      piece.reach_model = reachBoxOf(piece.model, piece.believed.joint_values);
       pieces.push_back(std::move(piece));
     }
   }

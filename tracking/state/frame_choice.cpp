@@ -77,4 +77,20 @@ std::optional<int> frameBetween(const std::vector<SeenFrame>& frames, int piece,
   return nearest;
 }
 
+std::optional<int> frameBeside(const std::vector<SeenFrame>& frames, int piece, const std::vector<int>& read, int frame) {
+  constexpr std::int64_t kBeside_ns = 1'000'000'000;
+  const std::int64_t stamp_ns = frames[static_cast<std::size_t>(frame)].stamp_ns;
+  std::optional<int> nearest;
+  std::int64_t nearest_ns = kBeside_ns;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::int64_t away_ns = std::abs(frames[i].stamp_ns - stamp_ns);
+    const int index = static_cast<int>(i);
+    if (away_ns < nearest_ns && std::find(read.begin(), read.end(), index) == read.end() && candidateOf(frames[i], index, piece)) {
+      nearest = index;
+      nearest_ns = away_ns;
+    }
+  }
+  return nearest;
+}
+
 }  // namespace oikos::tracking

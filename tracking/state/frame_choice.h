@@ -16,4 +16,7 @@ namespace oikos::tracking {
 /// A frame between these two that sees the piece, as near to the middle in time as can be; nothing: there is none.
 [[nodiscard]] std::optional<int> frameBetween(const std::vector<SeenFrame>& frames, int piece, int first, int last);
 
+/// The frame nearest in time to this one that sees the piece and was not read, within the same stay; nothing: there is none.
+[[nodiscard]] std::optional<int> frameBeside(const std::vector<SeenFrame>& frames, int piece, const std::vector<int>& read, int frame);
+
 }  // namespace oikos::tracking

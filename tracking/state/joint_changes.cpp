@@ -70,7 +70,7 @@ std::vector<JointChange> findChanges(const std::vector<JointStay>& stays, const 
     change.kind = kindOf(change.before, change.after, closed, limits.closed);
     change.sigma = std::sqrt(stay.span.variance);
     change.confidence = stay.span.confidence * std::erf(difference / sigma / std::sqrt(2.0));
-    change.stamp_ns = stay.span.first_ns;
+    change.stamp_ns = stay.first_ns;
     change.frame = stay.first_frame;
     change.evidence_frame = stay.best_frame;
     change.crop = stay.crop;

@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/state/piece_views.h"
 
-#include <algorithm>
-#include <cmath>
 #include <opencv2/core.hpp>
-
-#include "tracking/localisation/home_landmarks.h"
 
 namespace oikos::tracking {
 
 namespace {
 
-/// Points only: to count, no normals are needed.
-registration::Scan pointsOf(const cv::Mat& depth_m, const camera::PinholeCamera& camera, const FrameChoiceConfig& config) {
-  registration::Scan scan;
-  scan.camera = registration::thinned(camera, config.step_px);
-  scan.points.resize(static_cast<std::size_t>(scan.camera.width) * static_cast<std::size_t>(scan.camera.height));
-  std::size_t i = 0;
-  for (int v = 0; v < scan.camera.height; ++v) {
-    for (int u = 0; u < scan.camera.width; ++u, ++i) {
-      const float z = depth_m.at<float>(v * config.step_px, u * config.step_px);
-      if (z > 0.0F && z <= static_cast<float>(config.max_range_m)) {
-        scan.points[i].point_camera.z() = z;
+constexpr double kAround_m = 0.03;  // beside a piece: errors of pose and depth
+constexpr double kFloor_m = 0.04;   // lower readings are of the floor
+
+std::vector<Eigen::Vector3d> readingsOf(const camera::RgbdFrame& frame, const camera::PinholeCamera& camera,
+                                        const Eigen::Isometry3d& T_map_camera, const FrameChoiceConfig& config) {
+  std::vector<Eigen::Vector3d> points_map;
+  for (int v = 0; v < frame.depth_m.rows; v += config.step_px) {
+    for (int u = 0; u < frame.depth_m.cols; u += config.step_px) {
+      const auto depth_m = static_cast<double>(frame.depth_m.at<float>(v, u));
+      if (depth_m > 0.0 && depth_m <= config.max_range_m) {
+        const Eigen::Vector3d point_map = T_map_camera * (depth_m * camera.ray(u, v));
+        if (point_map.z() > kFloor_m) {
+          points_map.push_back(point_map);
+        }
       }
     }
   }
-  return scan;
+  return points_map;
+}
+
+Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box) {
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(kAround_m);
+  return {box.min() - around, box.max() + around};
 }
 
 /// Of a box's corners, those in the picture.
@@ -41,30 +45,26 @@ double shareInPicture(const ArticulatedPiece& piece, const Eigen::Isometry3d& T_
 
 }  // namespace
 
-PieceViews::PieceViews(const semantic::Home& home, const std::filesystem::path& home_folder, const std::vector<ArticulatedPiece>& pieces,
-                       const FrameChoiceConfig& config)
-    : pieces_(pieces), config_(config), furniture_(makeLandmarks(home, home_folder, {.has_shiftable = true})) {
-  for (const std::string& id : furniture_.ids()) {
-    const auto found = std::find_if(pieces.begin(), pieces.end(), [&](const ArticulatedPiece& piece) { return piece.id.value == id; });
-    piece_of_landmark_.push_back(found == pieces.end() ? -1 : static_cast<int>(found - pieces.begin()));
-  }
-}
-
-SeenFrame PieceViews::look(const camera::RgbdFrame& frame, const camera::PinholeCamera& camera, const LocatedPose& pose) const {
+SeenFrame lookFor(const std::vector<ArticulatedPiece>& pieces, const camera::RgbdFrame& frame, const camera::PinholeCamera& camera,
+                  const LocatedPose& pose, const FrameChoiceConfig& config) {
   SeenFrame seen{frame.index, frame.stamp_ns, pose.source, pose.T_map_camera, pose.covariance, {}};
-  const std::vector<int> pixels = furniture_.countInView(pointsOf(frame.depth_m, camera, config_), pose.T_map_camera, 1);
-  std::vector<int> of_piece(pieces_.size(), 0);
-  for (std::size_t s = 0; s < pixels.size(); ++s) {
-    const int piece = piece_of_landmark_[static_cast<std::size_t>(furniture_.surfaces()[s].landmark)];
-    if (piece >= 0) {
-      of_piece[static_cast<std::size_t>(piece)] += pixels[s];
+  const std::vector<Eigen::Vector3d> points_map = readingsOf(frame, camera, pose.T_map_camera, config);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const Eigen::AlignedBox3d box = grown(pieces[p].box_model);
+    const Eigen::AlignedBox3d reach = grown(pieces[p].reach_model);
+    const Eigen::Isometry3d T_model_map = pieces[p].believed.T_map_model.inverse();
+    int within = 0;
+    int in_reach = 0;
+    for (const Eigen::Vector3d& point_map : points_map) {
+      const Eigen::Vector3d point_model = T_model_map * point_map;
+      if (reach.contains(point_model)) {
+        (box.contains(point_model) ? within : in_reach) += 1;
+      }
     }
-  }
-  for (std::size_t p = 0; p < pieces_.size(); ++p) {
-    if (of_piece[p] >= config_.min_pixels) {
-      const double whole = shareInPicture(pieces_[p], pose.T_map_camera, camera);
-      const double weight = 1.0 - config_.middle_weight + config_.middle_weight * whole;
-      seen.sights.push_back({static_cast<int>(p), of_piece[p], weight * of_piece[p]});
+    if (within + in_reach >= config.min_pixels) {
+      const double whole = shareInPicture(pieces[p], pose.T_map_camera, camera);
+      const double weight = 1.0 - config.whole_weight + config.whole_weight * whole;
+      seen.sights.push_back({static_cast<int>(p), weight * (within + config.reach_weight * in_reach)});
     }
   }
   return seen;

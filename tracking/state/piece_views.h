@@ -4,13 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 #include "core/camera/pinhole_camera.h"
 #include "core/camera/rgbd_frame.h"
-#include "registration/landmark/landmark_scene.h"
-#include "semantic/model/home.h"
+#include "core/geometry/se3.h"
 #include "tracking/localisation/localiser.h"
 #include "tracking/state/articulated_pieces.h"
 #include "tracking/state/state_config.h"
@@ -20,8 +18,7 @@ namespace oikos::tracking {
 /// One piece in one frame.
 struct PieceSight {
   int piece = 0;
-  int pixels = 0;      ///< readings of it in the thinned image, if it is as it is believed
-  double worth = 0.0;  ///< for a registration: the more pixels, and the more of its corners, the better
+  double worth = 0.0;  ///< for a registration: the more readings, and the more of its corners, the better
 };
 
 /// A located frame without its images.
@@ -34,21 +31,9 @@ struct SeenFrame {
   std::vector<PieceSight> sights;  ///< ascending
 };
 
-/// Renders the home as it is believed, walls included, and counts. Not thread-safe.
-class PieceViews {
- public:
-  /// `pieces` are those of this home. Throws Error for a model that cannot be made.
-  PieceViews(const semantic::Home& home, const std::filesystem::path& home_folder, const std::vector<ArticulatedPiece>& pieces,
-             const FrameChoiceConfig& config);
-
-  /// `pose`: of a frame that was found.
-  [[nodiscard]] SeenFrame look(const camera::RgbdFrame& frame, const camera::PinholeCamera& camera, const LocatedPose& pose) const;
-
- private:
-  const std::vector<ArticulatedPiece>& pieces_;
-  FrameChoiceConfig config_;
-  registration::LandmarkScene furniture_;
-  std::vector<int> piece_of_landmark_;  ///< -1: none of them
-};
+/// Counts the readings that lie where a piece and its open doors and drawers can be: what hides it is before it, and counts for nothing.
+/// `pose`: of a frame that was found.
+[[nodiscard]] SeenFrame lookFor(const std::vector<ArticulatedPiece>& pieces, const camera::RgbdFrame& frame,
+                                const camera::PinholeCamera& camera, const LocatedPose& pose, const FrameChoiceConfig& config);
 
 }  // namespace oikos::tracking

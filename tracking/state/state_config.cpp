@@ -14,7 +14,8 @@ std::vector<std::string> FrameChoiceConfig::validate() const {
       .greater("gap_s", gap_s, 0.0)
       .atLeast("spacing_s", spacing_s, 0.0)
       .atLeast("most_frames", most_frames, 1)
-      .between("middle_weight", middle_weight, 0.0, 1.0)
+      .between("reach_weight", reach_weight, 0.0, 1.0)
+      .between("whole_weight", whole_weight, 0.0, 1.0)
       .atLeast("most_halvings", most_halvings, 0)
       .messages();
 }

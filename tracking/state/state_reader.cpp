@@ -42,17 +42,22 @@ std::vector<JointSighting> sightingsOf(const std::vector<Shot>& shots, std::size
 JointStay stayOf(const JointSpan& span, const std::vector<Shot>& shots, std::size_t joint, const std::vector<SeenFrame>& frames) {
   JointStay stay;
   stay.span = span;
-  stay.first_frame = frames[static_cast<std::size_t>(shots[span.first].index)].frame;
+  const auto seenIn = [&](std::size_t shot) -> const SeenFrame& { return frames[static_cast<std::size_t>(shots[shot].index)]; };
+  stay.first_ns = seenIn(span.first).stamp_ns;
+  stay.first_frame = seenIn(span.first).frame;
   int most = -1;
   for (std::size_t i = span.first; i <= span.last; ++i) {
     const registration::JointEstimate& estimate = shots[i].joints[joint];
     const bool is_found = estimate.status == JointStatus::kFound;
     stay.images += estimate.status != JointStatus::kNotInView ? 1 : 0;
-    stay.found += is_found ? 1 : 0;
+    if (is_found && stay.found++ == 0) {
+      stay.first_ns = seenIn(i).stamp_ns;
+      stay.first_frame = seenIn(i).frame;
+    }
     const int shown = estimate.sight.agreeing + (is_found ? 1'000'000 : 0);
     if (shown > most) {
       most = shown;
-      stay.best_frame = frames[static_cast<std::size_t>(shots[i].index)].frame;
+      stay.best_frame = seenIn(i).frame;
     }
   }
   return stay;
@@ -90,6 +95,34 @@ struct StateReader::Track {
   std::vector<Shot> shots;                                              ///< in the order of time
   int frames_in_view = 0;
 
+  [[nodiscard]] std::vector<int> indices() const {
+    std::vector<int> indices;
+    for (const Shot& shot : shots) {
+      indices.push_back(shot.index);
+    }
+    return indices;
+  }
+  void want(std::optional<int> index) {
+    const auto is_it = [&](const Shot& shot) { return shot.index == *index; };
+    if (index && std::none_of(shots.begin(), shots.end(), is_it)) {
+      wanted.insert(*index);
+    }
+  }
+  [[nodiscard]] int foundIn(const JointSpan& span, std::size_t joint) const {
+    int found = 0;
+    for (std::size_t i = span.first; i <= span.last; ++i) {
+      found += shots[i].joints[joint].status == JointStatus::kFound ? 1 : 0;
+    }
+    return found;
+  }
+  /// The first image of the span that has found the joint.
+  [[nodiscard]] std::size_t witnessOf(const JointSpan& span, std::size_t joint) const {
+    std::size_t i = span.first;
+    while (shots[i].joints[joint].status != JointStatus::kFound) {
+      ++i;
+    }
+    return i;
+  }
   /// By joint of the registration.
   [[nodiscard]] std::vector<std::vector<JointSpan>> spans(const std::vector<SeenFrame>& frames,
                                                           const registration::JointFusionConfig& config) const {
@@ -107,7 +140,6 @@ StateReader::StateReader(const semantic::Home& home, const std::filesystem::path
       config_(config),
       threads_(threads),
       pieces_(articulatedPieces(home, home_folder, only)),
-      views_(home, home_folder, pieces_, config.frames),
       surroundings_(home, home_folder) {
   OIKOS_CHECK(base::validateConfig(config).empty());
   config_.registration.threads = 1;  // the pieces of a frame share the threads
@@ -123,7 +155,7 @@ void StateReader::look(const camera::RgbdFrame& frame, const LocatedPose& pose) 
   if (pose.source == PoseSource::kNone) {
     return;
   }
-  frames_.push_back(views_.look(frame, camera_, pose));
+  frames_.push_back(lookFor(pieces_, frame, camera_, pose, config_.frames));
   for (const PieceSight& sight : frames_.back().sights) {
     ++tracks_[static_cast<std::size_t>(sight.piece)]->frames_in_view;
   }
@@ -166,17 +198,20 @@ void StateReader::chooseFirst() {
   }
 }
 
-/// Between images that disagree about a joint, nearer to the moment.
+/// Between images that disagree about a joint, nearer to the moment; and beside those that are alone with what they say.
 void StateReader::halve() {
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     Track& track = *tracks_[p];
-    for (const std::vector<JointSpan>& spans : track.spans(frames_, config_.fusion)) {
-      for (std::size_t k = 0; k + 1 < spans.size(); ++k) {
-        const auto between =
-            frameBetween(frames_, static_cast<int>(p), track.shots[spans[k].last].index, track.shots[spans[k + 1].first].index);
-        const auto is_known = [&](const Shot& shot) { return between && shot.index == *between; };
-        if (between && std::none_of(track.shots.begin(), track.shots.end(), is_known)) {
-          track.wanted.insert(*between);
+    const std::vector<std::vector<JointSpan>> spans = track.spans(frames_, config_.fusion);
+    for (std::size_t j = 0; j < spans.size(); ++j) {
+      for (std::size_t k = 0; k + 1 < spans[j].size(); ++k) {
+        track.want(
+            frameBetween(frames_, static_cast<int>(p), track.shots[spans[j][k].last].index, track.shots[spans[j][k + 1].first].index));
+      }
+      for (const JointSpan& span : spans[j]) {
+        if (track.foundIn(span, j) == 1 && config_.change.min_images > 1) {
+          const std::size_t witness = track.witnessOf(span, j);
+          track.want(frameBeside(frames_, static_cast<int>(p), track.indices(), track.shots[witness].index));
         }
       }
     }

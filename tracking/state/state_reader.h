@@ -23,7 +23,8 @@ namespace oikos::tracking {
 /// A time in which a joint stood still.
 struct JointStay {
   registration::JointSpan span;  ///< its indices mean nothing here
-  int first_frame = 0;           ///< of the recording
+  std::int64_t first_ns = 0;     ///< of the first image that has found it by itself; if none has: of the first that may show it
+  int first_frame = 0;           ///< that image, of the recording
   int images = 0;
   int found = 0;                ///< of these, images that have found it by themselves
   int best_frame = 0;           ///< that shows most of the part,
@@ -88,7 +89,6 @@ class StateReader {
   StateConfig config_;
   int threads_;
   std::vector<ArticulatedPiece> pieces_;
-  PieceViews views_;
   HomeSurroundings surroundings_;
   std::vector<SeenFrame> frames_;
   std::vector<std::unique_ptr<Track>> tracks_;  ///< by piece
