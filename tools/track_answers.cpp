@@ -43,12 +43,21 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
+std::string stateText(const semantic::State& state) {
+  if (const auto* const joint = std::get_if<semantic::JointValue>(&state)) {
+    return valueText(joint->value, joint->type);
+  }
+  const auto& pose = std::get<semantic::FurniturePose>(state).T_map_object;
+  return "(" + toFixedText(pose.position_m.x(), 2) + ", " + toFixedText(pose.position_m.y(), 2) + ", " +
+         toFixedText(pose.roll_pitch_yaw_rad.z() / base::kRadPerDeg, 1) + " deg)";
+}
+
 void printEvent(const tracking::StateEvent& event) {
-  const semantic::JointType type = std::get<semantic::JointValue>(*event.event.after).type;
-  std::cout << "  " << padded(event.event.subject, 34) << padded(std::string(base::toString(event.change.kind)), 7) << "  "
-            << valueText(event.change.before, type) << " -> " << valueText(event.change.after, type) << " +- "
-            << valueText(event.change.sigma, type) << "  " << base::toRfc3339(event.event.time_ns) << ", frame " << event.change.frame
-            << ", sure to " << toFixedText(100.0 * event.event.confidence, 1) << " %\n";
+  const auto* const joint = std::get_if<semantic::JointValue>(&*event.event.after);
+  const semantic::JointType type = joint != nullptr ? joint->type : semantic::JointType::kPrismatic;
+  std::cout << "  " << padded(event.event.subject, 34) << padded(event.word, 7) << "  " << stateText(*event.event.before) << " -> "
+            << stateText(*event.event.after) << " +- " << valueText(event.sigma, type) << "  " << base::toRfc3339(event.event.time_ns)
+            << ", frame " << *event.event.frame << ", sure to " << toFixedText(100.0 * event.event.confidence, 1) << " %\n";
 }
 
 /// Every joint in view, with its value at the recording's end.
@@ -101,6 +110,17 @@ Json piecesJson(const TrackedRecording& recording) {
   return pieces;
 }
 
+Json furnitureJson(const tracking::FurniturePlace& place) {
+  const semantic::Pose pose = semantic::Pose::fromIsometry(place.T_map_object);
+  return {{"id", place.id.value},
+          {"x_m", pose.position_m.x()},
+          {"y_m", pose.position_m.y()},
+          {"yaw_deg", pose.roll_pitch_yaw_rad.z() / base::kRadPerDeg},
+          {"views", place.views},
+          {"spread_m", place.spread_m},
+          {"fit", place.fit}};
+}
+
 Json recordingJson(const TrackedRecording& recording) {
   Json json = {{"recording", recording.folder.string()}, {"status", base::toString(recording.status)}};
   if (!recording.name.empty()) {
@@ -127,10 +147,14 @@ Json recordingJson(const TrackedRecording& recording) {
   json["events"] = Json::array();
   for (const tracking::StateEvent& event : recording.events) {
     Json one = semantic::toJson(event.event);
-    one["change"] = base::toString(event.change.kind);
+    one["change"] = event.word;
     json["events"].push_back(std::move(one));
   }
   json["pieces"] = piecesJson(recording);
+  json["furniture"] = Json::array();
+  for (const tracking::FurniturePlace& place : states.furniture) {
+    json["furniture"].push_back(furnitureJson(place));
+  }
   return json;
 }
 

@@ -156,8 +156,8 @@ class Batch {
     tracking::Localiser localiser = workshop.makeLocaliser();
     tracking::StateReader reader(home_, task_.home, job.recording->camera(), task_.config.states, threads, task_.object);
     result.opening_s = std::chrono::duration<double>(Clock::now() - begin).count();
-    result.states = tracking::readStates(*job.recording, localiser, reader, task_.config.states.frames, threads,
-                                         task_.jobs == 1 ? progress_.sink() : base::ProgressSink());
+    result.states = tracking::readStates(*job.recording, {home_, task_.home, localiser, reader, task_.config.states, threads, task_.object,
+                                                          task_.jobs == 1 ? progress_.sink() : base::ProgressSink()});
     result.status = result.states.found > 0 ? TrackStatus::kTracked : TrackStatus::kNotFound;
   }
 
@@ -185,8 +185,7 @@ class Batch {
     for (const semantic::Event& event : dry_events_) {
       believed.set(event.subject, *event.after);
     }
-    result.events =
-        tracking::stateEvents(result.states.pieces, believed.home(), {result.name, result.start_ns}, task_.config.states.change);
+    result.events = tracking::stateEvents(result.states, believed.home(), {result.name, result.start_ns}, task_.config.states);
     if (task_.is_dry) {
       for (const tracking::StateEvent& event : result.events) {
         dry_events_.push_back(event.event);
@@ -223,11 +222,11 @@ class Batch {
   }
 
   std::string writeEvidence(const Job& job, const tracking::StateEvent& event) const {
-    const registration::PixelBox& box = event.change.crop;
-    const cv::Mat color = job.recording->read(event.change.evidence_frame, recording::Channels::kColor).color;
+    const registration::PixelBox& box = event.crop;
+    const cv::Mat color = job.recording->read(event.evidence_frame, recording::Channels::kColor).color;
     const cv::Rect crop = cv::Rect(cv::Point(box.left, box.top), cv::Point(box.right, box.bottom)) & cv::Rect(cv::Point(), color.size());
     const std::vector<unsigned char> jpeg = recording::encodeJpeg((crop.empty() ? color : color(crop)).clone(), kEvidenceQuality);
-    const std::string path = "evidence/" + job.result.name + "/" + event.event.subject + "-" + std::to_string(event.change.frame) + ".jpg";
+    const std::string path = "evidence/" + job.result.name + "/" + event.event.subject + "-" + std::to_string(*event.event.frame) + ".jpg";
     fs::create_directories((task_.home / path).parent_path());
     base::writeFileAtomically(task_.home / path, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
     return path;

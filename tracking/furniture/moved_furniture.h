@@ -27,6 +27,20 @@ struct MovedFurnitureConfig {
   double lone_fit = 0.8;  ///< what one view alone must explain
   int threads = 1;        ///< the result does not depend on it
 
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("scan", scan);
+    visitor("views", views);
+    visitor("view_apart_deg", view_apart_deg);
+    visitor("best_distance_m", best_distance_m);
+    visitor("max_distance_m", max_distance_m);
+    visitor("min_fit", min_fit);
+    visitor("agree_m", agree_m);
+    visitor("agree_deg", agree_deg);
+    visitor("min_moved_m", min_moved_m);
+    visitor("min_moved_deg", min_moved_deg);
+    visitor("lone_fit", lone_fit);
+  }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
 

@@ -59,6 +59,36 @@ void readWanted(const recording::Recording& recording, const std::vector<int>& w
   }
 }
 
+/// Each shiftable piece in the views that are best for it.
+std::vector<FurniturePlace> placesOf(const recording::Recording& recording, const StateTools& tools) {
+  std::vector<FurnitureView> frames;
+  for (const SeenFrame& seen : tools.reader.frames()) {
+    frames.push_back({seen.frame, seen.stamp_ns, seen.T_map_camera});
+  }
+  MovedFurnitureConfig config = tools.config.furniture;
+  config.threads = tools.threads;
+  std::vector<FurniturePlace> places;
+  for (const semantic::Room& room : tools.home.rooms) {
+    for (const semantic::LargeObject& object : room.objects) {
+      if (object.movability != semantic::Movability::kShiftable || (!tools.only.empty() && object.id.value != tools.only)) {
+        continue;
+      }
+      const std::vector<FurnitureView> views = viewsFor(object, frames, recording.camera(), config);
+      std::vector<mapping::LocatedScan> scans;
+      for (const FurnitureView& view : views) {
+        const camera::RgbdFrame frame = recording.read(view.frame, recording::Channels::kGray);
+        refine(frame, tools.localiser, tools.reader);
+        scans.push_back(halvedScan(frame.depth_m, recording.camera(), tools.reader.seen(view.frame).T_map_camera));
+      }
+      if (const auto place = placeOf(tools.home, tools.home_folder, object.id, scans, config)) {
+        places.push_back(
+            {object.id, place->T_map_after, place->views, place->spread_m, place->fit, views.front().stamp_ns, views.front().frame});
+      }
+    }
+  }
+  return places;
+}
+
 }  // namespace
 
 int strideOf(const recording::Recording& recording, double most_hz) {
@@ -70,21 +100,22 @@ int strideOf(const recording::Recording& recording, double most_hz) {
   return length_s > 0.0 ? std::max(1, static_cast<int>(std::lround((count - 1) / length_s / most_hz))) : 1;
 }
 
-RecordingStates readStates(const recording::Recording& recording, Localiser& localiser, StateReader& reader,
-                           const FrameChoiceConfig& config, int threads, const base::ProgressSink& progress) {
+RecordingStates readStates(const recording::Recording& recording, const StateTools& tools) {
   RecordingStates states;
   states.frames = recording.frameCount();
   const Clock::time_point begin = Clock::now();
-  locate(recording, localiser, reader, strideOf(recording, config.most_hz), progress, states);
+  const int stride = strideOf(recording, tools.config.frames.most_hz);
+  locate(recording, tools.localiser, tools.reader, stride, tools.progress, states);
   states.locating_s = secondsSince(begin);
   const Clock::time_point located = Clock::now();
-  for (std::vector<int> wanted = reader.wanted(); !wanted.empty(); wanted = reader.wanted()) {
-    readWanted(recording, wanted, localiser, reader, threads, progress);
+  for (std::vector<int> wanted = tools.reader.wanted(); !wanted.empty(); wanted = tools.reader.wanted()) {
+    readWanted(recording, wanted, tools.localiser, tools.reader, tools.threads, tools.progress);
   }
-  states.pieces = reader.conclude();
+  states.pieces = tools.reader.conclude();
   for (const PieceReading& piece : states.pieces) {
     states.registrations += piece.images;
   }
+  states.furniture = placesOf(recording, tools);
   states.reading_s = secondsSince(located);
   return states;
 }

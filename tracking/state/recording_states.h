@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole recording: where it was, and what it says of doors and drawers.
+// A whole recording: where it was, and what it says of doors, drawers and shiftable furniture.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "core/base/progress.h"
 #include "core/recording/recording.h"
+#include "semantic/model/home.h"
+#include "tracking/furniture/furniture_places.h"
 #include "tracking/localisation/localiser.h"
 #include "tracking/state/state_config.h"
 #include "tracking/state/state_reader.h"
@@ -21,14 +25,26 @@ struct RecordingStates {
   double locating_s = 0.0;
   double reading_s = 0.0;
   std::vector<PieceReading> pieces;
+  std::vector<FurniturePlace> furniture;  ///< of shiftable pieces, those whose views agree
 };
 
 /// Every how many frames one is looked at, so that there are no more than `most_hz` in a second.
 [[nodiscard]] int strideOf(const recording::Recording& recording, double most_hz);
 
-/// Reads the recording to its end, then once more the frames that the reader asks for; only a few frames are in memory at a time. The same
-/// result for any number of threads. Throws Error{kInput} if too many frames cannot be read.
-[[nodiscard]] RecordingStates readStates(const recording::Recording& recording, Localiser& localiser, StateReader& reader,
-                                         const FrameChoiceConfig& config, int threads, const base::ProgressSink& progress = {});
+/// What a recording is read with.
+struct StateTools {
+  const semantic::Home& home;  ///< as it is believed
+  std::filesystem::path home_folder;
+  Localiser& localiser;
+  StateReader& reader;
+  const StateConfig& config;
+  int threads = 1;
+  std::string only = {};  ///< one piece; empty: all
+  base::ProgressSink progress = {};
+};
+
+/// Reads the recording to its end, then once more the frames that tell most; only a few frames are in memory at a time. The same result for
+/// any number of threads. Throws Error{kInput} if too many frames cannot be read.
+[[nodiscard]] RecordingStates readStates(const recording::Recording& recording, const StateTools& tools);
 
 }  // namespace oikos::tracking

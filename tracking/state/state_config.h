@@ -8,6 +8,7 @@
 #include "registration/articulated/articulated_registration.h"
 #include "registration/articulated/joint_fusion.h"
 #include "registration/scan.h"
+#include "tracking/furniture/moved_furniture.h"
 
 namespace oikos::tracking {
 
@@ -91,6 +92,7 @@ struct StateConfig {
   registration::ArticulatedConfig registration;
   registration::JointFusionConfig fusion;
   ChangeTestConfig change;
+  MovedFurnitureConfig furniture;  ///< of shiftable pieces
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -100,6 +102,7 @@ struct StateConfig {
     visitor("registration", registration);
     visitor("fusion", fusion);
     visitor("change", change);
+    visitor("furniture", furniture);
   }
   [[nodiscard]] std::vector<std::string> validate() const { return {}; }
 };

@@ -2,6 +2,10 @@
 #include "tracking/state/state_events.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "core/base/degrees.h"
+#include "tracking/state/joint_changes.h"
 
 namespace oikos::tracking {
 
@@ -31,22 +35,61 @@ StateEvent eventOf(const JointChange& change, const semantic::ObjectId& object, 
   event.before = semantic::JointValue{joint.type, change.before};
   event.after = semantic::JointValue{joint.type, change.after};
   event.confidence = std::clamp(change.confidence, 0.0, 1.0);
-  return {event, object, change};
+  return {event, object, std::string(base::toString(change.kind)), change.sigma, change.evidence_frame, change.crop};
+}
+
+const semantic::LargeObject* findObject(const semantic::Home& home, const semantic::ObjectId& id) {
+  for (const semantic::Room& room : home.rooms) {
+    const auto found =
+        std::find_if(room.objects.begin(), room.objects.end(), [&](const semantic::LargeObject& object) { return object.id == id; });
+    if (found != room.objects.end()) {
+      return &static_cast<const semantic::LargeObject&>(*found);
+    }
+  }
+  return nullptr;
+}
+
+/// Nothing: it stands where it is believed to.
+std::optional<StateEvent> moveOf(const FurniturePlace& place, const semantic::LargeObject& object, const EventSource& source,
+                                 const MovedFurnitureConfig& config) {
+  const Eigen::Isometry3d T_believed_found = object.T_map_object.toIsometry().inverse() * place.T_map_object;
+  if (T_believed_found.translation().norm() < config.min_moved_m &&
+      Eigen::AngleAxisd(T_believed_found.linear()).angle() < config.min_moved_deg * base::kRadPerDeg) {
+    return std::nullopt;
+  }
+  semantic::Event event;
+  event.time_ns = source.start_ns + place.stamp_ns;
+  event.recording = source.recording;
+  event.frame = place.frame;
+  event.subject = object.id.value;
+  event.kind = semantic::EventKind::kMoved;
+  event.before = semantic::FurniturePose{object.T_map_object};
+  event.after = semantic::FurniturePose{semantic::Pose::fromIsometry(place.T_map_object)};
+  event.confidence = std::clamp(place.fit, 0.0, 1.0);
+  return StateEvent{event, object.id, "moved", place.spread_m, place.frame, {}};
 }
 
 }  // namespace
 
-std::vector<StateEvent> stateEvents(const std::vector<PieceReading>& readings, const semantic::Home& believed, const EventSource& source,
-                                    const ChangeTestConfig& config) {
+std::vector<StateEvent> stateEvents(const RecordingStates& states, const semantic::Home& believed, const EventSource& source,
+                                    const StateConfig& config) {
   std::vector<StateEvent> events;
-  for (const PieceReading& piece : readings) {
+  for (const PieceReading& piece : states.pieces) {
     for (const JointReading& reading : piece.joints) {
       const semantic::Joint* const joint = findJoint(believed, piece.id, reading.id);
       if (joint == nullptr || joint->type != reading.type) {
         continue;
       }
-      for (const JointChange& change : findChanges(reading.stays, *joint, config)) {
+      for (const JointChange& change : findChanges(reading.stays, *joint, config.change)) {
         events.push_back(eventOf(change, piece.id, *joint, source));
+      }
+    }
+  }
+  for (const FurniturePlace& place : states.furniture) {
+    const semantic::LargeObject* const object = findObject(believed, place.id);
+    if (object != nullptr) {
+      if (auto event = moveOf(place, *object, source, config.furniture)) {
+        events.push_back(*std::move(event));
       }
     }
   }

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "registration/scan.h"
 #include "semantic/history/event.h"
 #include "semantic/model/home.h"
-#include "tracking/state/joint_changes.h"
-#include "tracking/state/state_reader.h"
+#include "tracking/state/recording_states.h"
 
 namespace oikos::tracking {
 
@@ -17,7 +17,10 @@ namespace oikos::tracking {
 struct StateEvent {
   semantic::Event event;  ///< without `evidence`
   semantic::ObjectId object;
-  JointChange change;
+  std::string word;             ///< opened, closed, moved
+  double sigma = 0.0;           ///< of what stands in `after`: rad of a hinge, else m
+  int evidence_frame = 0;       ///< the picture that shows it best,
+  registration::PixelBox crop;  ///< and where; empty: all of it
 };
 
 struct EventSource {
@@ -26,8 +29,8 @@ struct EventSource {
 };
 
 /// `believed`: the home as it was known to be when the recording was made. What it no longer has is passed over. In the order of time, then
-/// of the home.
-[[nodiscard]] std::vector<StateEvent> stateEvents(const std::vector<PieceReading>& readings, const semantic::Home& believed,
-                                                  const EventSource& source, const ChangeTestConfig& config);
+/// doors and drawers before furniture, each in the home's order.
+[[nodiscard]] std::vector<StateEvent> stateEvents(const RecordingStates& states, const semantic::Home& believed, const EventSource& source,
+                                                  const StateConfig& config);
 
 }  // namespace oikos::tracking

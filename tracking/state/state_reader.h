@@ -74,6 +74,8 @@ class StateReader {
   /// Pieces that no frame sees are left out.
   [[nodiscard]] std::vector<PieceReading> conclude() const;
   [[nodiscard]] const std::vector<ArticulatedPiece>& pieces() const { return pieces_; }
+  /// Every frame that was looked at and found, in the order of time.
+  [[nodiscard]] const std::vector<SeenFrame>& frames() const { return frames_; }
   /// Where a frame was; it was looked at and found.
   [[nodiscard]] const SeenFrame& seen(int frame) const;
 
