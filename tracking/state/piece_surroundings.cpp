@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/state/piece_surroundings.h"
 
-#include <algorithm>
-
 #include "core/model/primitives.h"
 #include "core/render/view.h"
 #include "semantic/model/home_models.h"
@@ -23,7 +21,7 @@ model::ArticulatedModel modelOf(model::TriangleMesh mesh) {
   return model;
 }
 
-/// How far a box comes into the other one at the least, over its axes in `map`.
+/// The box along the other frame's axes around a box.
 Eigen::AlignedBox3d inMap(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& T_map_box) {
   Eigen::AlignedBox3d box_map;
   for (int i = 0; i < 8; ++i) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <memory>
+#include <filesystem>
 #include <string>
 #include <vector>
 

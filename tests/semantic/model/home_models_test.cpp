@@ -113,6 +113,17 @@ TEST(JointValues, AreThoseOfTheJointsThenOfTheKnobsStates) {
   EXPECT_EQ(values.size(), ModelMaker("nowhere").make(oven).joints.size());
 }
 
+TEST(ModelMaker, KnobsAreKnobsOfTheModel) {
+  const LargeObject oven = pieceOf("oven", kOven);
+  const model::ArticulatedModel made = ModelMaker("nowhere").make(oven);
+  ASSERT_EQ(made.knobs.size(), 3U);
+  for (std::size_t i = 0; i < made.knobs.size(); ++i) {
+    EXPECT_EQ(made.knobs[i].name, oven.articulation->knobs[i].id.value);
+    EXPECT_EQ(made.parts[static_cast<std::size_t>(made.knobs[i].part)].name, made.knobs[i].name);
+    EXPECT_EQ(made.knobs[i].states.size(), oven.articulation->knobs[i].states.size());
+  }
+}
+
 TEST(ModelMaker, MakesBoxesWhereThereIsNoShape) {
   LargeObject table;
   table.id = {"table"};
