@@ -16,13 +16,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-struct Kind {
-  std::string name;
-  test::FurnitureKind shape;
-};
-
-const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> kinds = {
+const std::vector<WorldKind>& kinds() {
+  static const std::vector<WorldKind> kinds = {
       {"cabinet", {"cabinet"}},
       {"two doors", {"cabinet", {{"door_count", "2"}, {"width_m", "0.9"}, {"worktop_thickness_m", "0.04"}}}},
       {"wardrobe", {"cabinet", {{"door_count", "2"}, {"width_m", "1.0"}, {"height_m", "1.9"}, {"shelf_count", "4"}}}},
@@ -146,7 +141,7 @@ camera::PinholeCamera cameraOf(camera::DepthSensorKind sensor) {
 const std::vector<std::string>& worldKinds() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> listed;
-    for (const Kind& kind : kinds()) {
+    for (const WorldKind& kind : kinds()) {
       listed.push_back(kind.name);
     }
     return listed;
@@ -180,7 +175,10 @@ void lookFrom(double distance_m, double off_axis_rad, World& world) {
 }
 
 World makeWorld(int number, const WorldSettings& settings, Random& random) {
-  const Kind& kind = kinds()[static_cast<std::size_t>(number) % kinds().size()];
+  return makeWorld(kinds()[static_cast<std::size_t>(number) % kinds().size()], settings, random);
+}
+
+World makeWorld(const WorldKind& kind, const WorldSettings& settings, Random& random) {
   World world;
   world.kind = kind.name;
   world.real = test::trulyBuilt(kind.shape, settings.dimension_m, random);

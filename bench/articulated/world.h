@@ -13,6 +13,7 @@
 #include "core/camera/sensor/depth_sensor.h"
 #include "core/model/articulated_model.h"
 #include "core/render/view.h"
+#include "tests/registration/furniture_scan.h"
 
 namespace oikos::bench {
 
@@ -29,6 +30,11 @@ struct WorldSettings {
   double shift_deg = 0.0;      ///< and is turned so far, to either side
   double occluded = 0.0;       ///< share of the piece's width that a person stands before
   bool has_contents = true;    ///< boxes that no model has, on shelves and in drawers
+};
+
+struct WorldKind {
+  std::string name;
+  test::FurnitureKind shape;
 };
 
 struct World {
@@ -53,6 +59,7 @@ struct Picture {
 /// Ten kinds, whose turns come one after the other.
 [[nodiscard]] const std::vector<std::string>& worldKinds();
 [[nodiscard]] World makeWorld(int number, const WorldSettings& settings, Random& random);
+[[nodiscard]] World makeWorld(const WorldKind& kind, const WorldSettings& settings, Random& random);
 /// Joint values as they come: a quarter closed, the others anywhere; a dishwasher's baskets stay behind its door.
 [[nodiscard]] std::vector<double> randomState(const model::ArticulatedModel& real, const model::ArticulatedModel& believed, Random& random);
 void lookFrom(double distance_m, double off_axis_rad, World& world);

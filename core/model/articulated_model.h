@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/model/handle_kind.h"
 #include "core/model/triangle_mesh.h"
 
 namespace oikos::model {
@@ -31,11 +32,13 @@ struct ModelJoint {
   double upper = 0.0;
 };
 
+/// Its frame lies in the middle of the grip, x away from the face, z along the grip.
 struct ModelHandle {
   std::string name;
   int part = 0;
   Eigen::Isometry3d T_part_handle = Eigen::Isometry3d::Identity();
-  std::optional<double> length_m;
+  std::optional<double> length_m;  ///< along the grip; of a knob: its diameter
+  HandleKind kind = HandleKind::kBar;
 };
 
 struct ModelKnobState {

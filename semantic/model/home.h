@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/enum_table.h"
+#include "core/model/handle_kind.h"
 #include "semantic/model/copy_on_write.h"
 #include "semantic/model/pose.h"
 #include "semantic/model/vocabulary.h"
@@ -56,11 +57,7 @@ constexpr auto enumTable(SwitchKind) {
   return std::to_array<base::EnumName<SwitchKind>>({{SwitchKind::kRotational, "rotational"}, {SwitchKind::kPrismatic, "prismatic"}});
 }
 
-enum class HandleKind { kBar, kKnob, kRecessed };
-constexpr auto enumTable(HandleKind) {
-  return std::to_array<base::EnumName<HandleKind>>(
-      {{HandleKind::kBar, "bar"}, {HandleKind::kKnob, "knob"}, {HandleKind::kRecessed, "recessed"}});
-}
+using model::HandleKind;
 
 struct GraspingPoint {
   PartId part;  ///< empty: of the object as a whole

@@ -153,6 +153,10 @@ ArticulatedModel ModelMaker::make(const LargeObject& object) {
   for (const Joint& joint : object.articulation->joints) {
     made.joints.push_back(jointOf(joint, *object.articulation));
   }
+  for (const Handle& handle : object.articulation->handles) {
+    const int part = static_cast<int>(indexOfPart(*object.articulation, handle.part));
+    made.handles.push_back({handle.id, part, handle.T_part_handle.toIsometry(), handle.length_m, handle.kind});
+  }
   fixLooseParts(*object.articulation, made);
   addKnobs(object, from, made);
   return made;
@@ -251,9 +255,8 @@ Articulation articulationOf(const ArticulatedModel& shape, const ObjectId& objec
     }
   }
   for (const model::ModelHandle& handle : shape.handles) {
-    const HandleKind kind = handle.length_m ? HandleKind::kBar : HandleKind::kKnob;
     made.handles.push_back(
-        {object.value + "-" + handle.name, {idOf(handle.part)}, kind, tidiedPose(handle.T_part_handle), handle.length_m, {}});
+        {object.value + "-" + handle.name, {idOf(handle.part)}, handle.kind, tidiedPose(handle.T_part_handle), handle.length_m, {}});
   }
   for (const model::ModelKnob& knob : shape.knobs) {
     const auto joint = jointTo(knob.part);

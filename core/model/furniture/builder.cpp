@@ -65,6 +65,11 @@ Eigen::Vector3d hingeOrigin(const Eigen::AlignedBox3d& closed_model, HingeEdge h
   return {face_x, middle.y(), closed_model.min().z()};
 }
 
+HandleKind kindOf(HandleStyle style) {
+  const bool is_bar = style == HandleStyle::kBarVertical || style == HandleStyle::kBarHorizontal;
+  return is_bar ? HandleKind::kBar : style == HandleStyle::kKnob ? HandleKind::kKnob : HandleKind::kRecessed;
+}
+
 /// With its z along `horizontal` (y of the model) or upwards.
 Eigen::Matrix3d gripRotation(bool horizontal) {
   return horizontal ? Eigen::AngleAxisd(-std::numbers::pi / 2.0, Eigen::Vector3d::UnitX()).toRotationMatrix() : Eigen::Matrix3d::Identity();
@@ -186,7 +191,7 @@ void FurnitureBuilder::addHandle(int part, const HandlePlace& place, const Finis
   } else {
     return;
   }
-  ModelHandle handle{.name = place.name, .part = part, .length_m = {}};
+  ModelHandle handle{.name = place.name, .part = part, .length_m = {}, .kind = kindOf(place.style)};
   handle.T_part_handle = translationTo(grip);
   handle.T_part_handle.linear() = gripRotation(horizontal);
   handle.length_m = place.style == HandleStyle::kKnob ? 2.0 * kKnobRadius_m : place.length_m;

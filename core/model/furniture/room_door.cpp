@@ -56,8 +56,7 @@ void addLever(FurnitureBuilder& builder, int part, const RoomDoorShape& shape, d
   builder.addRod(part, {spindle, spindle + out * kRose_m, 0.026}, finish);
   builder.addRod(part, {spindle + out * kRose_m, elbow + out * kLeverRadius_m, kLeverRadius_m}, finish);
   builder.addRod(part, {elbow, elbow + along * shape.lever_length_m, kLeverRadius_m}, finish);
-  ModelHandle handle{.name = outward > 0.0 ? "front_lever" : "back_lever", .part = part, .length_m = {}};
-  handle.length_m = shape.lever_length_m;
+  ModelHandle handle{.name = outward > 0.0 ? "front_lever" : "back_lever", .part = part, .length_m = shape.lever_length_m};
   handle.T_part_handle.translation() = elbow + along * shape.lever_length_m / 2.0;
   handle.T_part_handle.linear() << out, along.cross(out), along;
   builder.enterHandle(part, handle);

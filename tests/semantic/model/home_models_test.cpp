@@ -79,6 +79,25 @@ TEST(ArticulationOf, ACupboardWithTwoDoors) {
   expectSamePoses(cupboard, makeShape(kCupboard, "here"));
 }
 
+TEST(ArticulationOf, HandlesAreOfTheirKind) {
+  const auto kindOf = [](const std::string& style) {
+    return pieceOf("unit", {"drawer_unit", {{"handle", style}}}).articulation->handles.at(0).kind;
+  };
+  EXPECT_EQ(kindOf("bar_horizontal"), HandleKind::kBar);
+  EXPECT_EQ(kindOf("knob"), HandleKind::kKnob);
+  EXPECT_EQ(kindOf("recessed"), HandleKind::kRecessed);
+}
+
+TEST(ModelMaker, HandlesComeAlong) {
+  const LargeObject cupboard = pieceOf("cupboard", kCupboard);
+  const model::ArticulatedModel made = ModelMaker("").make(cupboard);
+  ASSERT_EQ(made.handles.size(), 2U);
+  EXPECT_EQ(made.handles[1].name, cupboard.articulation->handles[1].id);
+  EXPECT_EQ(made.parts[static_cast<std::size_t>(made.handles[1].part)].name, "cupboard-right_door");
+  EXPECT_EQ(made.handles[1].kind, HandleKind::kBar);
+  EXPECT_EQ(made.handles[1].length_m, cupboard.articulation->handles[1].length_m);
+}
+
 TEST(ArticulationOf, AnOvenWithKnobs) {
   const LargeObject oven = pieceOf("oven", kOven);
   const Articulation& a = *oven.articulation;

@@ -42,7 +42,7 @@ bool isSame(const ArticulatedModel& a, const ArticulatedModel& b) {
            j.lower == k.lower && j.upper == k.upper;
   };
   const auto handle = [](const ModelHandle& h, const ModelHandle& i) {
-    return h.name == i.name && h.T_part_handle.matrix() == i.T_part_handle.matrix() && h.length_m == i.length_m;
+    return h.name == i.name && h.T_part_handle.matrix() == i.T_part_handle.matrix() && h.length_m == i.length_m && h.kind == i.kind;
   };
   const auto state = [](const ModelKnobState& s, const ModelKnobState& t) { return s.name == t.name && s.angle_rad == t.angle_rad; };
   const auto knob = [&](const ModelKnob& k, const ModelKnob& l) {

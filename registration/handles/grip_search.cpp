@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+// After 5.2.1.1 of paper 003 (S238, S239): what stands out within the front's hull is the handle. Differs in that no single reading has to
+// stand out by a centimetre: at two metres a bar is three pixels wide, a first Kinect takes the mean over nine, and its noise is as high as
+// what is left of the bar. All readings around the handle are compared with the whole of it.
+#include "registration/handles/grip_search.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/config_rules.h"
+
+namespace oikos::registration {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kSeenOfBar = 0.785;     // of a round bar's radius, what its visible side stands out in the mean
+constexpr double kHeightSigma_m = 0.02;  // wide: how much of its height a sensor shows is not known
+constexpr int kMostInGrid = 900;         // readings
+constexpr double kHuber = 2.5;
+constexpr int kRounds = 12;
+
+/// A place of the grid.
+struct GridPlace {
+  double along_m = 0.0;
+  double across_m = 0.0;
+  double blur_m = 0.0;
+  double gain = 0.0;
+  double score = 0.0;
+};
+
+std::vector<GripReading> everyNth(const std::vector<GripReading>& readings, std::size_t n) {
+  std::vector<GripReading> fewer;
+  for (std::size_t i = 0; i < readings.size(); i += n) {
+    fewer.push_back(readings[i]);
+  }
+  return fewer;
+}
+
+/// Weighted least squares over the height of the grip and the offset of its front, at each place of a grid.
+class Grid {
+ public:
+  Grid(const GripReadings& grip, const Bar& believed, const GripConfig& config) : believed_(believed), config_(config) {
+    const std::size_t n = 1 + grip.readings.size() / kMostInGrid;
+    readings_ = everyNth(grip.readings, n);
+    const double share = std::min(1.0, grip.share * static_cast<double>(n));
+    weight_ = share / (grip.sigma_m * grip.sigma_m);
+    front_prior_ = 1.0 / (weight_ * config.offset_sigma_m * config.offset_sigma_m);
+    for (const GripReading& reading : readings_) {
+      sum_ += reading.height_m;
+    }
+  }
+
+  [[nodiscard]] GridPlace at(double along_m, double across_m, double blur_m) const {
+    double covers = 0.0;
+    double squares = 0.0;
+    double products = 0.0;
+    for (const GripReading& reading : readings_) {
+      const double cover = covered(reading.along_m - along_m, believed_.half_length_m, blur_m) *
+                           covered(reading.across_m - across_m, believed_.half_width_m, blur_m);
+      covers += cover;
+      squares += cover * cover;
+      products += cover * reading.height_m;
+    }
+    const double n = static_cast<double>(readings_.size()) + front_prior_;
+    const double seen = squares - covers * covers / n;
+    const double standing_out = products - covers * sum_ / n;
+    GridPlace place{along_m, across_m, blur_m, 0.0, 0.0};
+    if (seen > 1e-9 && standing_out > 0.0) {
+      const double height_m = std::min(standing_out / seen, config_.max_reach_m);
+      place.gain = weight_ * height_m * (standing_out - 0.5 * height_m * seen);
+    }
+    place.score = place.gain - 0.5 * (along_m * along_m + across_m * across_m) / (config_.place_sigma_m * config_.place_sigma_m);
+    return place;
+  }
+
+ private:
+  const Bar& believed_;
+  const GripConfig& config_;
+  std::vector<GripReading> readings_;
+  double weight_ = 0.0;
+  double front_prior_ = 0.0;  ///< in readings
+  double sum_ = 0.0;
+};
+
+/// Best places of the grid, apart from each other.
+std::vector<GridPlace> bestOfGrid(const GripReadings& grip, const Bar& believed, const GripConfig& config) {
+  constexpr double kStepAlong_m = 0.006;
+  constexpr double kStepAcross_m = 0.004;
+  const Grid grid(grip, believed, config);
+  const int along = static_cast<int>(std::floor(config.search_m / kStepAlong_m));
+  const int across = static_cast<int>(std::floor(config.search_m / kStepAcross_m));
+  std::vector<GridPlace> places;
+  for (const double blur_px : {config.sharp_blur_px, config.wide_blur_px}) {
+    for (int i = -along; i <= along; ++i) {
+      for (int j = -across; j <= across; ++j) {
+        const GridPlace place = grid.at(i * kStepAlong_m, j * kStepAcross_m, blur_px * grip.pixel_m);
+        if (place.gain > 0.5 * config.min_gain) {
+          places.push_back(place);
+        }
+      }
+    }
+  }
+  std::stable_sort(places.begin(), places.end(), [](const GridPlace& a, const GridPlace& b) { return a.score > b.score; });
+  std::vector<GridPlace> best;
+  for (const GridPlace& place : places) {
+    const bool is_apart = std::all_of(best.begin(), best.end(), [&](const GridPlace& other) {
+      return std::hypot(place.along_m - other.along_m, place.across_m - other.across_m) >= config.apart_m;
+    });
+    if (is_apart && static_cast<int>(best.size()) < config.most_places) {
+      best.push_back(place);
+    }
+  }
+  return best;
+}
+
+/// What is believed of a bar, as a mean and deviations.
+struct BarPrior {
+  Vector7d mean = Vector7d::Zero();
+  Vector7d information = Vector7d::Zero();
+};
+
+BarPrior priorOf(const GripBelief& belief, const GripConfig& config) {
+  const double length = belief.is_knob ? 0.25 : 0.5;
+  Vector7d sigmas;
+  sigmas << config.place_sigma_m, config.place_sigma_m, config.roll_sigma_deg * kDegree, kHeightSigma_m, config.offset_sigma_m,
+      length * config.length_sigma_m, config.radius_sigma_m;
+  return {believedBar(belief).vector(), sigmas.cwiseAbs2().cwiseInverse()};
+}
+
+/// Gauss-Newton from one place, with steps that are halved until they help.
+class BarFit {
+ public:
+  BarFit(const GripBelief& belief, const GripReadings& grip, const GripConfig& config)
+      : grip_(grip), prior_(priorOf(belief, config)), is_square_(belief.is_knob) {}
+
+  void refine(Vector7d& bar, double blur_m) {
+    Sums sums = sumUp(bar, blur_m);
+    double damping = 1e-6;
+    for (int round = 0; round < kRounds; ++round) {
+      Matrix7d H = sums.H;
+      H.diagonal() *= 1.0 + damping;
+      const Vector7d step = H.ldlt().solve(sums.g);
+      Vector7d moved = bar + step;
+      moved[5] = std::max(moved[5], 0.003);
+      moved[6] = is_square_ ? moved[5] : std::max(moved[6], 0.002);
+      const Sums there = sumUp(moved, blur_m);
+      if (there.cost < sums.cost) {
+        const bool is_done = sums.cost - there.cost < 1e-4;
+        bar = moved;
+        sums = there;
+        damping *= 0.1;
+        if (is_done) {
+          break;
+        }
+      } else {
+        damping = std::max(10.0 * damping, 1e-3);
+      }
+    }
+    information_ = sums.H;
+    cost_ = sums.data_cost;
+    readings_ = sums.readings;
+  }
+
+  [[nodiscard]] GripPlace placeAt(const Vector7d& bar, double blur_m) const {
+    GripPlace place;
+    place.bar = Bar::from(bar);
+    place.blur_m = blur_m;
+    place.covariance = information_.ldlt().solve(Matrix7d::Identity());
+    place.gain = bareCost(bar[4]) - cost_;
+    place.score = place.gain - 0.5 * (bar.head<2>().cwiseAbs2().array() * prior_.information.head<2>().array()).sum();
+    place.readings = readings_;
+    return place;
+  }
+
+ private:
+  struct Sums {
+    Matrix7d H = Matrix7d::Zero();
+    Vector7d g = Vector7d::Zero();
+    double cost = 0.0;
+    double data_cost = 0.0;
+    int readings = 0;
+  };
+
+  [[nodiscard]] static double huber(double ratio) {
+    const double size = std::abs(ratio);
+    return size < kHuber ? 0.5 * size * size : kHuber * (size - 0.5 * kHuber);
+  }
+
+  [[nodiscard]] Sums sumUp(const Vector7d& vector, double blur_m) const {
+    Sums sums;
+    const Bar bar = Bar::from(vector);
+    const double weight = grip_.share / (grip_.sigma_m * grip_.sigma_m);
+    for (const GripReading& reading : grip_.readings) {
+      BarReading expected = readBar(bar, reading.along_m, reading.across_m, blur_m);
+      const double residual_m = reading.height_m - expected.height_m;
+      const double ratio = residual_m / grip_.sigma_m;
+      sums.data_cost += grip_.share * huber(ratio);
+      const double robust = std::abs(ratio) < kHuber ? weight : weight * kHuber / std::abs(ratio);
+      if (expected.cover <= 0.0) {
+        sums.H(4, 4) += robust;
+        sums.g[4] += robust * residual_m;
+        continue;
+      }
+      if (is_square_) {
+        expected.derivative[5] += expected.derivative[6];
+        expected.derivative[6] = 0.0;
+      }
+      sums.readings += expected.cover >= 0.5 ? 1 : 0;
+      sums.H.selfadjointView<Eigen::Lower>().rankUpdate(expected.derivative, robust);
+      sums.g += robust * residual_m * expected.derivative;
+    }
+    sums.H = Matrix7d(sums.H.selfadjointView<Eigen::Lower>());
+    const Vector7d off = is_square_ ? offOfSquare(vector) : Vector7d(vector - prior_.mean);
+    sums.H.diagonal() += prior_.information;
+    sums.g -= prior_.information.cwiseProduct(off);
+    sums.cost = sums.data_cost + 0.5 * off.cwiseAbs2().dot(prior_.information);
+    return sums;
+  }
+
+  /// A square's width is its length.
+  [[nodiscard]] Vector7d offOfSquare(const Vector7d& vector) const {
+    Vector7d off = vector - prior_.mean;
+    off[6] = 0.0;
+    return off;
+  }
+
+  [[nodiscard]] double bareCost(double offset_m) const {
+    double cost = 0.0;
+    for (const GripReading& reading : grip_.readings) {
+      cost += grip_.share * huber((reading.height_m - offset_m) / grip_.sigma_m);
+    }
+    return cost;
+  }
+
+  const GripReadings& grip_;
+  BarPrior prior_;
+  bool is_square_;
+  Matrix7d information_ = Matrix7d::Zero();
+  double cost_ = 0.0;
+  int readings_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> GripConfig::validate() const {
+  return base::ConfigRules()
+      .greater("place_sigma_m", place_sigma_m, 0.0)
+      .greater("height_sigma_m", height_sigma_m, 0.0)
+      .greater("roll_sigma_deg", roll_sigma_deg, 0.0)
+      .greater("length_sigma_m", length_sigma_m, 0.0)
+      .atLeast("mixture_sigma_m", mixture_sigma_m, 0.0)
+      .greater("bar_radius_m", bar_radius_m, 0.0)
+      .greater("radius_sigma_m", radius_sigma_m, 0.0)
+      .greater("bar_length_m", bar_length_m, 0.0)
+      .greater("knob_width_m", knob_width_m, 0.0)
+      .greater("search_m", search_m, 0.0)
+      .atLeast("min_reach_m", min_reach_m, 0.0)
+      .greater("max_reach_m", max_reach_m, min_reach_m)
+      .greater("offset_sigma_m", offset_sigma_m, 0.0)
+      .greater("sharp_blur_px", sharp_blur_px, 0.0)
+      .greater("wide_blur_px", wide_blur_px, 0.0)
+      .greater("correlation_px", correlation_px, 0.0)
+      .atLeast("floor_m", floor_m, 0.0)
+      .greater("noise_floor_m", noise_floor_m, 0.0)
+      .atLeast("most_readings", most_readings, 100)
+      .atLeast("min_readings", min_readings, 1)
+      .between("max_hidden", max_hidden, 0.0, 1.0)
+      .greater("min_gain", min_gain, 0.0)
+      .greater("apart_m", apart_m, 0.0)
+      .atLeast("most_places", most_places, 1)
+      .messages();
+}
+
+Bar believedBar(const GripBelief& belief) {
+  Bar bar;
+  bar.height_m = belief.is_knob ? 2.0 * belief.height_m() : belief.height_m() + kSeenOfBar * belief.half_width_m;
+  bar.half_length_m = belief.half_length_m;
+  bar.half_width_m = belief.half_width_m;
+  return bar;
+}
+
+std::vector<GripPlace> searchGrip(const GripBelief& belief, const GripReadings& readings, const GripConfig& config) {
+  const Bar believed = believedBar(belief);
+  std::vector<GripPlace> places;
+  for (const GridPlace& start : bestOfGrid(readings, believed, config)) {
+    BarFit fit(belief, readings, config);
+    Bar bar = believed;
+    bar.along_m = start.along_m;
+    bar.across_m = start.across_m;
+    Vector7d vector = bar.vector();
+    fit.refine(vector, start.blur_m);
+    const GripPlace place = fit.placeAt(vector, start.blur_m);
+    if (place.gain >= config.min_gain && place.bar.height_m >= config.min_reach_m) {
+      places.push_back(place);
+    }
+  }
+  std::stable_sort(places.begin(), places.end(), [](const GripPlace& a, const GripPlace& b) { return a.score > b.score; });
+  return places;
+}
+
+}  // namespace oikos::registration

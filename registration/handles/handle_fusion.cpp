@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "registration/handles/handle_fusion.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/base/config_rules.h"
+#include "core/base/error.h"
+
+namespace oikos::registration {
+
+namespace {
+
+using geometry::Matrix6d;
+using geometry::Vector6d;
+
+constexpr int kRounds = 20;
+
+/// An image's estimate about a common pose.
+struct Difference {
+  Vector6d xi = Vector6d::Zero();
+  Matrix6d information = Matrix6d::Zero();
+  double weight = 1.0;
+};
+
+/// What is this image's alone; at least a tenth of the whole.
+Matrix6d ownInformation(const HandleEstimate& estimate) {
+  Matrix6d own = estimate.covariance;
+  const Vector6d whole = estimate.covariance.diagonal();
+  own.diagonal() = (whole - estimate.shared.diagonal()).cwiseMax(0.1 * whole);
+  const Vector6d scale = (own.diagonal().array() / whole.array()).sqrt();  // so that it stays a covariance
+  own = scale.asDiagonal() * estimate.covariance * scale.asDiagonal();
+  return own.ldlt().solve(Matrix6d::Identity());
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Vector6d medians(const std::vector<Difference>& differences) {
+  Vector6d middle;
+  for (int i = 0; i < 6; ++i) {
+    std::vector<double> values;
+    for (const Difference& difference : differences) {
+      values.push_back(difference.xi[i]);
+    }
+    middle[i] = median(std::move(values));
+  }
+  return middle;
+}
+
+HandleStatus mostOften(const std::vector<HandleEstimate>& estimates) {
+  std::map<HandleStatus, int> counts;
+  for (const HandleEstimate& estimate : estimates) {
+    ++counts[estimate.status];
+  }
+  return std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+}
+
+struct Fused {
+  Vector6d xi = Vector6d::Zero();
+  Matrix6d covariance = Matrix6d::Zero();  ///< without what is shared
+};
+
+Fused fuseDifferences(std::vector<Difference>& differences, const HandleFusionConfig& config) {
+  Fused fused{medians(differences), Matrix6d::Zero()};
+  for (int round = 0; round < kRounds; ++round) {
+    Matrix6d H = Matrix6d::Zero();
+    Vector6d g = Vector6d::Zero();
+    for (Difference& difference : differences) {
+      const Vector6d off = difference.xi - fused.xi;
+      const double distance_sq = off.dot(difference.information * off);
+      difference.weight = (config.freedom + 6.0) / (config.freedom + distance_sq);
+      H += difference.weight * difference.information;
+      g += difference.weight * difference.information * difference.xi;
+    }
+    fused.xi = H.ldlt().solve(g);
+    fused.covariance = H.ldlt().solve(Matrix6d::Identity());
+  }
+  return fused;
+}
+
+}  // namespace
+
+std::vector<std::string> HandleFusionConfig::validate() const {
+  return base::ConfigRules()
+      .greater("freedom", freedom, 0.0)
+      .between("repeated", repeated, 0.0, 1.0)
+      .between("outlier", outlier, 0.0, 1.0)
+      .messages();
+}
+
+HandleFusion::HandleFusion(const HandleFusionConfig& config) : config_(config) {
+  OIKOS_CHECK(config.validate().empty());
+}
+
+void HandleFusion::add(const HandleEstimate& estimate) {
+  OIKOS_CHECK(estimates_.empty() || estimates_.front().handle == estimate.handle);
+  estimates_.push_back(estimate);
+}
+
+FusedHandle HandleFusion::result() const {
+  FusedHandle result;
+  result.images = static_cast<int>(estimates_.size());
+  if (estimates_.empty()) {
+    return result;
+  }
+  result.status = mostOften(estimates_);
+  result.T_part_handle = estimates_.front().T_part_handle;
+  result.covariance = estimates_.front().covariance;
+  result.length_m = estimates_.front().length_m;
+  std::vector<const HandleEstimate*> seen;
+  for (const HandleEstimate& estimate : estimates_) {
+    if (estimate.isSeen()) {
+      seen.push_back(&estimate);
+    }
+  }
+  result.seen = static_cast<int>(seen.size());
+  if (seen.empty()) {
+    return result;
+  }
+  const Eigen::Isometry3d T_part_common = seen.front()->T_part_handle;
+  std::vector<Difference> differences;
+  std::vector<double> lengths_m;
+  for (const HandleEstimate* estimate : seen) {
+    differences.push_back({geometry::logSe3(T_part_common.inverse() * estimate->T_part_handle), ownInformation(*estimate), 1.0});
+    lengths_m.push_back(estimate->length_m);
+  }
+  const Fused fused = fuseDifferences(differences, config_);
+  result.T_part_handle = T_part_common * geometry::expSe3(fused.xi);
+  result.length_m = median(lengths_m);
+
+  Vector6d shared = Vector6d::Zero();
+  double squares_m = 0.0;
+  double squares_rad = 0.0;
+  double squares = 0.0;
+  double weights = 0.0;
+  bool is_found = false;
+  const double agreeing = (config_.freedom + 6.0) / config_.freedom;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Vector6d off = differences[i].xi - fused.xi;
+    shared += differences[i].weight * seen[i]->shared.diagonal();
+    weights += differences[i].weight;
+    squares += differences[i].weight * off.dot(differences[i].information * off) / 6.0;
+    is_found |= seen[i]->status == HandleStatus::kFound;
+    if (differences[i].weight < config_.outlier * agreeing) {
+      ++result.outliers;
+      continue;
+    }
+    squares_m += off.head<3>().squaredNorm();
+    squares_rad += off.tail<3>().squaredNorm();
+  }
+  const double agreed = std::max(1, result.seen - result.outliers);
+  result.spread_m = std::sqrt(squares_m / agreed);
+  result.spread_deg = std::sqrt(squares_rad / agreed) * 180.0 / std::numbers::pi;
+  result.status = is_found ? HandleStatus::kFound : HandleStatus::kPartly;
+  const double images = static_cast<double>(seen.size());
+  const double repeating = 1.0 + config_.repeated * (images - 1.0);  // images that repeat each other count for fewer
+  result.covariance = std::max(1.0, squares / weights) * repeating * fused.covariance;
+  result.covariance.diagonal() += shared / weights;
+  return result;
+}
+
+}  // namespace oikos::registration

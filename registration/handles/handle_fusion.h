@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What many images say about one handle.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "core/geometry/se3.h"
+#include "registration/handles/handle_finder.h"
+
+namespace oikos::registration {
+
+struct HandleFusionConfig {
+  double freedom = 4.0;   ///< of Student's distribution: the smaller, the less an image that differs counts
+  double repeated = 0.1;  ///< share of what an image says that the others repeat: their registration, the same noise
+  double outlier = 0.3;   ///< images that weigh less than this beside one that agrees are counted as outliers
+
+  template <class Visitor>
+  void visit(Visitor&& visitor) {
+    visitor("freedom", freedom);
+    visitor("repeated", repeated);
+    visitor("outlier", outlier);
+  }
+  [[nodiscard]] std::vector<std::string> validate() const;
+};
+
+struct FusedHandle {
+  HandleStatus status = HandleStatus::kNotInView;  ///< found, partly found, or what most images say
+  Eigen::Isometry3d T_part_handle = Eigen::Isometry3d::Identity();
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< of the right perturbation (m, rad)
+  double length_m = 0.0;
+  int images = 0;           ///< all
+  int seen = 0;             ///< in which it was found, wholly or partly
+  int outliers = 0;         ///< of these, far from the others
+  double spread_m = 0.0;    ///< root mean square of the seen images' places about the fused one, outliers left out
+  double spread_deg = 0.0;  ///< the same of their rotations
+};
+
+/// One handle over the images of a recording, on its part, which may move meanwhile: the images' estimates weighted with their covariances,
+/// those far from the rest less (Student's t by iterated weights; Lange, Little & Taylor 1989, doi:10.2307/2290063). Not thread-safe.
+class HandleFusion {
+ public:
+  /// Throws ContractViolation if `config` is not valid.
+  explicit HandleFusion(const HandleFusionConfig& config);
+
+  /// Throws ContractViolation for another handle than the first one's.
+  void add(const HandleEstimate& estimate);
+  /// Of no image: status not in view.
+  [[nodiscard]] FusedHandle result() const;
+
+ private:
+  HandleFusionConfig config_;
+  std::vector<HandleEstimate> estimates_;
+};
+
+}  // namespace oikos::registration
