@@ -12,6 +12,7 @@ struct Cover {
   double value = 0.0;
   double by_x = 0.0;
   double by_half = 0.0;
+  double by_blur = 0.0;
 };
 
 Cover coverOf(double x_m, double half_m, double blur_m) {
@@ -21,35 +22,37 @@ Cover coverOf(double x_m, double half_m, double blur_m) {
   }
   const double high_moves = x_m + blur_m < half_m ? 1.0 : 0.0;
   const double low_moves = x_m - blur_m > -half_m ? 1.0 : 0.0;
-  return {value, (high_moves - low_moves) / (2.0 * blur_m), (2.0 - high_moves - low_moves) / (2.0 * blur_m)};
+  return {value, (high_moves - low_moves) / (2.0 * blur_m), (2.0 - high_moves - low_moves) / (2.0 * blur_m),
+          ((high_moves + low_moves) / 2.0 - value) / blur_m};
 }
 
 }  // namespace
 
-Vector7d Bar::vector() const {
-  return (Vector7d() << along_m, across_m, roll_rad, height_m, offset_m, half_length_m, half_width_m).finished();
+BarVector Bar::vector() const {
+  return (BarVector() << along_m, across_m, roll_rad, height_m, offset_m, half_length_m, half_width_m, blur_m).finished();
 }
 
-Bar Bar::from(const Vector7d& vector) {
-  return {vector[0], vector[1], vector[2], vector[3], vector[4], vector[5], vector[6]};
+Bar Bar::from(const BarVector& vector) {
+  return {vector[0], vector[1], vector[2], vector[3], vector[4], vector[5], vector[6], vector[7]};
 }
 
-BarReading readBar(const Bar& bar, double along_m, double across_m, double blur_m) {
+BarReading readBar(const Bar& bar, double along_m, double across_m) {
   const double c = std::cos(bar.roll_rad);
   const double s = std::sin(bar.roll_rad);
   const double dz = along_m - bar.along_m;
   const double dy = across_m - bar.across_m;
   const double z = c * dz - s * dy;
   const double y = s * dz + c * dy;
-  const Cover lengthwise = coverOf(z, bar.half_length_m, blur_m);
-  const Cover crosswise = coverOf(y, bar.half_width_m, blur_m);
+  const Cover lengthwise = coverOf(z, bar.half_length_m, bar.blur_m);
+  const Cover crosswise = coverOf(y, bar.half_width_m, bar.blur_m);
   BarReading reading;
   reading.cover = lengthwise.value * crosswise.value;
   reading.height_m = bar.offset_m + bar.height_m * reading.cover;
   const double by_z = bar.height_m * lengthwise.by_x * crosswise.value;
   const double by_y = bar.height_m * lengthwise.value * crosswise.by_x;
   reading.derivative << -c * by_z - s * by_y, s * by_z - c * by_y, -y * by_z + z * by_y, reading.cover, 1.0,
-      bar.height_m * lengthwise.by_half * crosswise.value, bar.height_m * lengthwise.value * crosswise.by_half;
+      bar.height_m * lengthwise.by_half * crosswise.value, bar.height_m * lengthwise.value * crosswise.by_half,
+      bar.height_m * (lengthwise.by_blur * crosswise.value + lengthwise.value * crosswise.by_blur);
   return reading;
 }
 

@@ -7,8 +7,8 @@
 
 namespace oikos::registration {
 
-using Vector7d = Eigen::Matrix<double, 7, 1>;
-using Matrix7d = Eigen::Matrix<double, 7, 7>;
+using BarVector = Eigen::Matrix<double, 8, 1>;  ///< in the order of Bar
+using BarMatrix = Eigen::Matrix<double, 8, 8>;
 
 /// A rectangle that stands out of a plane: in the plane of the believed grip, y across it and z along it.
 struct Bar {
@@ -19,9 +19,10 @@ struct Bar {
   double offset_m = 0.0;  ///< of the plane
   double half_length_m = 0.0;
   double half_width_m = 0.0;
+  double blur_m = 0.0;  ///< half a side of the square that the camera takes the mean over
 
-  [[nodiscard]] Vector7d vector() const;
-  [[nodiscard]] static Bar from(const Vector7d& vector);
+  [[nodiscard]] BarVector vector() const;
+  [[nodiscard]] static Bar from(const BarVector& vector);
 };
 
 /// Share of an interval of `blur_m` to both sides of x that lies within `half_m` of 0.
@@ -34,9 +35,9 @@ struct Bar {
 /// What the camera reads at a place, and its derivatives.
 struct BarReading {
   double height_m = 0.0;
-  double cover = 0.0;                      ///< 0 beside the bar, 1 where nothing else is seen
-  Vector7d derivative = Vector7d::Zero();  ///< in the order of Bar
+  double cover = 0.0;                        ///< 0 beside the bar, 1 where nothing else is seen
+  BarVector derivative = BarVector::Zero();  ///< in the order of Bar
 };
-[[nodiscard]] BarReading readBar(const Bar& bar, double along_m, double across_m, double blur_m);
+[[nodiscard]] BarReading readBar(const Bar& bar, double along_m, double across_m);
 
 }  // namespace oikos::registration

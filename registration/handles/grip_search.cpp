@@ -18,8 +18,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSeenOfBar = 0.785;     // of a round bar's radius, what its visible side stands out in the mean
-constexpr double kHeightSigma_m = 0.02;  // wide: how much of its height a sensor shows is not known
+constexpr double kHeightSigma_m = 0.01;  // wide: how much of its height a sensor shows is not known
 constexpr int kMostInGrid = 900;         // readings
+constexpr double kLeastBlur_px = 0.5;    // a pixel is not smaller
 constexpr double kHuber = 2.5;
 constexpr int kRounds = 12;
 
@@ -119,35 +120,39 @@ std::vector<GridPlace> bestOfGrid(const GripReadings& grip, const Bar& believed,
 
 /// What is believed of a bar, as a mean and deviations.
 struct BarPrior {
-  Vector7d mean = Vector7d::Zero();
-  Vector7d information = Vector7d::Zero();
+  BarVector mean = BarVector::Zero();
+  BarVector information = BarVector::Zero();
 };
 
-BarPrior priorOf(const GripBelief& belief, const GripConfig& config) {
+BarPrior priorOf(const GripBelief& belief, double pixel_m, const GripConfig& config) {
   const double length = belief.is_knob ? 0.25 : 0.5;
-  Vector7d sigmas;
+  BarVector sigmas;
   sigmas << config.place_sigma_m, config.place_sigma_m, config.roll_sigma_deg * kDegree, kHeightSigma_m, config.offset_sigma_m,
-      length * config.length_sigma_m, config.radius_sigma_m;
-  return {believedBar(belief).vector(), sigmas.cwiseAbs2().cwiseInverse()};
+      length * config.length_sigma_m, config.radius_sigma_m, 0.5 * (config.wide_blur_px - config.sharp_blur_px) * pixel_m;
+  Bar bar = believedBar(belief);
+  bar.blur_m = 0.5 * (config.sharp_blur_px + config.wide_blur_px) * pixel_m;
+  return {bar.vector(), sigmas.cwiseAbs2().cwiseInverse()};
 }
 
 /// Gauss-Newton from one place, with steps that are halved until they help.
 class BarFit {
  public:
   BarFit(const GripBelief& belief, const GripReadings& grip, const GripConfig& config)
-      : grip_(grip), prior_(priorOf(belief, config)), is_square_(belief.is_knob) {}
+      : grip_(grip), prior_(priorOf(belief, grip.pixel_m, config)), is_square_(belief.is_knob) {}
 
-  void refine(Vector7d& bar, double blur_m) {
-    Sums sums = sumUp(bar, blur_m);
+  [[nodiscard]] GripPlace refine(const Bar& start) {
+    BarVector bar = start.vector();
+    Sums sums = sumUp(bar);
     double damping = 1e-6;
     for (int round = 0; round < kRounds; ++round) {
-      Matrix7d H = sums.H;
+      BarMatrix H = sums.H;
       H.diagonal() *= 1.0 + damping;
-      const Vector7d step = H.ldlt().solve(sums.g);
-      Vector7d moved = bar + step;
+      const BarVector step = H.ldlt().solve(sums.g);
+      BarVector moved = bar + step;
       moved[5] = std::max(moved[5], 0.003);
       moved[6] = is_square_ ? moved[5] : std::max(moved[6], 0.002);
-      const Sums there = sumUp(moved, blur_m);
+      moved[7] = std::max(moved[7], kLeastBlur_px * grip_.pixel_m);
+      const Sums there = sumUp(moved);
       if (there.cost < sums.cost) {
         const bool is_done = sums.cost - there.cost < 1e-4;
         bar = moved;
@@ -163,23 +168,23 @@ class BarFit {
     information_ = sums.H;
     cost_ = sums.data_cost;
     readings_ = sums.readings;
+    return placeAt(bar);
   }
 
-  [[nodiscard]] GripPlace placeAt(const Vector7d& bar, double blur_m) const {
+ private:
+  [[nodiscard]] GripPlace placeAt(const BarVector& bar) const {
     GripPlace place;
     place.bar = Bar::from(bar);
-    place.blur_m = blur_m;
-    place.covariance = information_.ldlt().solve(Matrix7d::Identity());
+    place.covariance = information_.ldlt().solve(BarMatrix::Identity());
     place.gain = bareCost(bar[4]) - cost_;
-    place.score = place.gain - 0.5 * (bar.head<2>().cwiseAbs2().array() * prior_.information.head<2>().array()).sum();
+    place.score = place.gain - 0.5 * offOf(bar).cwiseAbs2().dot(prior_.information);
     place.readings = readings_;
     return place;
   }
 
- private:
   struct Sums {
-    Matrix7d H = Matrix7d::Zero();
-    Vector7d g = Vector7d::Zero();
+    BarMatrix H = BarMatrix::Zero();
+    BarVector g = BarVector::Zero();
     double cost = 0.0;
     double data_cost = 0.0;
     int readings = 0;
@@ -190,12 +195,12 @@ class BarFit {
     return size < kHuber ? 0.5 * size * size : kHuber * (size - 0.5 * kHuber);
   }
 
-  [[nodiscard]] Sums sumUp(const Vector7d& vector, double blur_m) const {
+  [[nodiscard]] Sums sumUp(const BarVector& vector) const {
     Sums sums;
     const Bar bar = Bar::from(vector);
     const double weight = grip_.share / (grip_.sigma_m * grip_.sigma_m);
     for (const GripReading& reading : grip_.readings) {
-      BarReading expected = readBar(bar, reading.along_m, reading.across_m, blur_m);
+      BarReading expected = readBar(bar, reading.along_m, reading.across_m);
       const double residual_m = reading.height_m - expected.height_m;
       const double ratio = residual_m / grip_.sigma_m;
       sums.data_cost += grip_.share * huber(ratio);
@@ -213,18 +218,18 @@ class BarFit {
       sums.H.selfadjointView<Eigen::Lower>().rankUpdate(expected.derivative, robust);
       sums.g += robust * residual_m * expected.derivative;
     }
-    sums.H = Matrix7d(sums.H.selfadjointView<Eigen::Lower>());
-    const Vector7d off = is_square_ ? offOfSquare(vector) : Vector7d(vector - prior_.mean);
+    sums.H = BarMatrix(sums.H.selfadjointView<Eigen::Lower>());
+    const BarVector off = offOf(vector);
     sums.H.diagonal() += prior_.information;
     sums.g -= prior_.information.cwiseProduct(off);
     sums.cost = sums.data_cost + 0.5 * off.cwiseAbs2().dot(prior_.information);
     return sums;
   }
 
-  /// A square's width is its length.
-  [[nodiscard]] Vector7d offOfSquare(const Vector7d& vector) const {
-    Vector7d off = vector - prior_.mean;
-    off[6] = 0.0;
+  /// From what is believed. A square's width is its length.
+  [[nodiscard]] BarVector offOf(const BarVector& vector) const {
+    BarVector off = vector - prior_.mean;
+    off[6] = is_square_ ? 0.0 : off[6];
     return off;
   }
 
@@ -239,10 +244,27 @@ class BarFit {
   const GripReadings& grip_;
   BarPrior prior_;
   bool is_square_;
-  Matrix7d information_ = Matrix7d::Zero();
+  BarMatrix information_ = BarMatrix::Zero();
   double cost_ = 0.0;
   int readings_ = 0;
 };
+
+/// From a sharp and from a blurred start: a thin bar that stands out far, blurred, looks much like a thicker one that is not.
+GripPlace refined(const GripBelief& belief, const GridPlace& start, const GripReadings& readings, const GripConfig& config) {
+  GripPlace best;
+  for (const double blur_px : {config.sharp_blur_px, config.wide_blur_px}) {
+    Bar bar = believedBar(belief);
+    bar.along_m = start.along_m;
+    bar.across_m = start.across_m;
+    bar.blur_m = blur_px * readings.pixel_m;
+    BarFit fit(belief, readings, config);
+    const GripPlace place = fit.refine(bar);
+    if (best.gain <= 0.0 || place.score > best.score) {
+      best = place;
+    }
+  }
+  return best;
+}
 
 }  // namespace
 
@@ -284,16 +306,9 @@ Bar believedBar(const GripBelief& belief) {
 }
 
 std::vector<GripPlace> searchGrip(const GripBelief& belief, const GripReadings& readings, const GripConfig& config) {
-  const Bar believed = believedBar(belief);
   std::vector<GripPlace> places;
-  for (const GridPlace& start : bestOfGrid(readings, believed, config)) {
-    BarFit fit(belief, readings, config);
-    Bar bar = believed;
-    bar.along_m = start.along_m;
-    bar.across_m = start.across_m;
-    Vector7d vector = bar.vector();
-    fit.refine(vector, start.blur_m);
-    const GripPlace place = fit.placeAt(vector, start.blur_m);
+  for (const GridPlace& start : bestOfGrid(readings, believedBar(belief), config)) {
+    const GripPlace place = refined(belief, start, readings, config);
     if (place.gain >= config.min_gain && place.bar.height_m >= config.min_reach_m) {
       places.push_back(place);
     }

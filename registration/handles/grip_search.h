@@ -13,11 +13,10 @@ namespace oikos::registration {
 /// One place where something stands out as a handle does.
 struct GripPlace {
   Bar bar;
-  Matrix7d covariance = Matrix7d::Zero();  ///< in the order of Bar
-  double blur_m = 0.0;
-  double gain = 0.0;   ///< log likelihood over that of a bare front
-  double score = 0.0;  ///< the same, with what was believed of the place
-  int readings = 0;    ///< that show it, at least half
+  BarMatrix covariance = BarMatrix::Zero();  ///< in the order of Bar
+  double gain = 0.0;                         ///< log likelihood over that of a bare front
+  double score = 0.0;                        ///< the same, with what was believed of the place
+  int readings = 0;                          ///< that show it, at least half
 };
 
 /// The bar that is believed, without its height being known.

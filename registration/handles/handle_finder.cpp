@@ -88,8 +88,8 @@ class Assignment {
 };
 
 /// The grip's height before its front, by what stands out: of a bar the visible side, of a knob its end.
-Vector7d heightWeights(bool is_knob) {
-  Vector7d weights = Vector7d::Zero();
+BarVector heightWeights(bool is_knob) {
+  BarVector weights = BarVector::Zero();
   weights[3] = is_knob ? 0.5 : 1.0;
   weights[4] = 1.0;  // the front's own, below the handle
   weights[6] = is_knob ? 0.0 : -kSeenOfBar;
@@ -154,14 +154,14 @@ struct HeightFusion {
 /// T_handle_found: from the believed handle to where it stands out. The height that was found moves it along the camera's ray.
 Eigen::Isometry3d putAtPlace(const GripOnFront& on, const GripPlace& place, const HandleConfig& config, HandleEstimate& estimate) {
   const GripConfig& grip = config.grip;
-  const Vector7d weights = heightWeights(on.belief.is_knob);
+  const BarVector weights = heightWeights(on.belief.is_knob);
   const Eigen::Isometry3d T_handle_seen = on.belief.T_handle_seen();
   const Eigen::Vector3d met(0.0, place.bar.across_m, place.bar.along_m);
   const Eigen::Vector3d eye_seen = (on.T_camera_handle * T_handle_seen).inverse().translation();
   const Eigen::Vector3d per_rise = (met - eye_seen) / (met - eye_seen).x();
   const HeightFusion height(weights.dot(place.bar.vector()) - on.belief.height_m(), weights.dot(place.covariance * weights),
                             grip.mixture_sigma_m * eye_seen.squaredNorm(), grip.height_sigma_m);
-  Eigen::Matrix<double, 4, 7> J = Eigen::Matrix<double, 4, 7>::Zero();
+  Eigen::Matrix<double, 4, 8> J = Eigen::Matrix<double, 4, 8>::Zero();
   J(1, 1) += 1.0;
   J(2, 0) += 1.0;
   J(3, 2) = 1.0;
