@@ -10,9 +10,11 @@ void addModelCommand(CLI::App& root) {
   CLI::App& command = addCommand(root, {"model", "Models of furniture and small objects.",
                                         "  oikos model shapes cabinet\n"
                                         "  oikos model import cupboard.urdf\n"
-                                        "  oikos model import --shape \"cabinet width_m=0.8 door_count=2\" --id cupboard"});
+                                        "  oikos model import --shape \"cabinet width_m=0.8 door_count=2\" --id cupboard\n"
+                                        "  oikos model train knobs --out detector.txt"});
   addModelShapesCommand(command);
   addModelImportCommand(command);
+  addModelTrainCommand(command);
 }
 
 }  // namespace oikos::tools

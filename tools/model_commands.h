@@ -8,5 +8,6 @@ namespace oikos::tools {
 
 void addModelImportCommand(CLI::App& model);
 void addModelShapesCommand(CLI::App& model);
+void addModelTrainCommand(CLI::App& model);
 
 }  // namespace oikos::tools

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recognition/knobs/angle_fit.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+namespace oikos::recognition {
+
+namespace {
+
+/// A piece of the face's plane as large as a ring's window, moved by up to `reach_px` each way.
+class ShiftedWindows {
+ public:
+  struct Reach {
+    Eigen::Vector2d centre_patch;
+    int shift_px;
+  };
+  /// `mixture`: 1x3, of the colours; empty: all three.
+  ShiftedWindows(const FitStart& start, const cv::Mat& mixture, const AngleRing& ring, const Reach& reach)
+      : ring_(ring), reach_px_(reach.shift_px) {
+    const int reach_px = reach.shift_px;
+    PatchGrid grid;
+    grid.size = {ring.columns() + 2 * reach_px, ring.rows() + 2 * reach_px};
+    grid.px_per_m = ring.shape().radius_px / start.radius_m;
+    grid.origin_px = Eigen::Vector2d(ring.originColumn() + reach_px, ring.originRow() + reach_px);
+    grid.centre_patch = reach.centre_patch;
+    cv::Mat patch = samplePatch(start.color, start.camera, start.view, grid);
+    if (!mixture.empty()) {
+      cv::transform(patch, patch, mixture);
+    }
+    cv::split(patch, channels_);
+  }
+
+  [[nodiscard]] std::size_t channels() const { return channels_.size(); }
+  /// The pixels of the support, their mean taken away.
+  [[nodiscard]] Eigen::VectorXf at(std::size_t channel, const Eigen::Vector2i& shift_px) const {
+    const cv::Mat& image = channels_[channel];
+    Eigen::VectorXf pixels(static_cast<Eigen::Index>(ring_.support().size()));
+    for (std::size_t i = 0; i < ring_.support().size(); ++i) {
+      const int row = ring_.support()[i] / ring_.columns() + reach_px_ + shift_px.y();
+      const int column = ring_.support()[i] % ring_.columns() + reach_px_ + shift_px.x();
+      pixels[static_cast<Eigen::Index>(i)] = image.ptr<float>(row)[column];
+    }
+    pixels.array() -= pixels.mean();  // keeps sums of squares exact
+    return pixels;
+  }
+
+ private:
+  const AngleRing& ring_;
+  int reach_px_;
+  std::vector<cv::Mat> channels_;
+};
+
+constexpr double kNoise = 1e-5;  // mean square of what is no picture, so that an empty one is explained by nothing
+
+/// Of each template, the weighted energy of the pixels about their mean, and what of it is left over.
+struct Residuals {
+  Eigen::ArrayXXd left;   ///< templates x pictures
+  Eigen::ArrayXXd total;  ///< the same
+};
+
+/// `pictures`: a column each, pixels of the ring's support.
+Residuals residualsOf(const AngleRing& ring, const Eigen::MatrixXf& pictures) {
+  const Eigen::MatrixXf parts = (ring.bases() * pictures).cwiseAbs2();
+  Residuals residuals;
+  residuals.total = (ring.weights() * pictures.cwiseAbs2()).cast<double>().array() + kNoise * static_cast<double>(pictures.rows());
+  residuals.left = residuals.total;
+  for (int i = 0; i < ring.shape().angles; ++i) {
+    const int first = ring.firstRow()[static_cast<std::size_t>(i)];
+    const int count = ring.firstRow()[static_cast<std::size_t>(i) + 1] - first;
+    residuals.total.row(i) -= parts.row(first).cast<double>().array();
+    residuals.left.row(i) -= parts.middleRows(first, count).colwise().sum().cast<double>().array();
+  }
+  return residuals;
+}
+
+struct Place {
+  Eigen::Vector2i shift_px = Eigen::Vector2i::Zero();
+  Eigen::Index angle = 0;
+  double cost = 0.0;
+};
+constexpr int kPlaces = 4;
+
+/// What a place costs: half of the residuals' part of the likelihood (state_belief.h), and how far it is from the start and from where the
+/// knob is believed to be.
+double costOf(double unexplained, const FitStart& start, const Eigen::Vector2d& centre_patch) {
+  constexpr double kEvidence = 30.0;
+  constexpr double kStartSigma = 0.22;  // in radii
+  const double off_start = (centre_patch - start.centre_patch).squaredNorm() / std::pow(kStartSigma * start.radius_m, 2);
+  const double off_belief = centre_patch.squaredNorm() / std::pow(start.belief_sigma_m, 2);
+  return 0.5 * (kEvidence * std::log(std::max(1e-6, unexplained)) + off_start + off_belief);
+}
+
+/// The mixture of the colours that varies most about the start: a red knob on grey has no outline in brightness.
+cv::Mat strongestMixture(const FitStart& start) {
+  constexpr int kRadius_px = 7;
+  PatchGrid grid;
+  grid.size = {2 * kRadius_px + 1, 2 * kRadius_px + 1};
+  grid.origin_px = Eigen::Vector2d::Constant(kRadius_px);
+  grid.px_per_m = kRadius_px / (1.2 * start.radius_m);
+  grid.centre_patch = start.centre_patch;
+  const cv::Mat patch = samplePatch(start.color, start.camera, start.view, grid);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  const auto at = [&](int i) {
+    const auto& pixel = patch.at<cv::Vec3f>(i / grid.size.width, i % grid.size.width);
+    return Eigen::Vector3d(pixel[0], pixel[1], pixel[2]);
+  };
+  const int count = grid.size.area();
+  for (int i = 0; i < count; ++i) {
+    mean += at(i) / count;
+  }
+  for (int i = 0; i < count; ++i) {
+    covariance += (at(i) - mean) * (at(i) - mean).transpose();
+  }
+  const Eigen::Vector3d direction = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(2);
+  return (cv::Mat_<float>(1, 3) << static_cast<float>(direction[0]), static_cast<float>(direction[1]), static_cast<float>(direction[2]));
+}
+
+/// The start and the best places of the small templates, two pixels apart: all shifts in one product.
+std::vector<Place> findPlaces(const FitStart& start, const ShiftedWindows& windows, const AngleRing& ring, int reach_px) {
+  const double px_per_m = ring.shape().radius_px / start.radius_m;
+  const int side = 2 * reach_px + 1;
+  Eigen::MatrixXf pixels(static_cast<Eigen::Index>(ring.support().size()), side * side);
+  for (int i = 0; i < side * side; ++i) {
+    pixels.col(i) = windows.at(0, {i % side - reach_px, i / side - reach_px});
+  }
+  const Residuals residuals = residualsOf(ring, pixels);
+  std::vector<Place> places;
+  for (int i = 0; i < side * side; ++i) {
+    Place place;
+    place.shift_px = {i % side - reach_px, i / side - reach_px};
+    const double least = residuals.left.col(i).minCoeff(&place.angle);
+    place.cost = costOf(least, start, start.centre_patch + place.shift_px.cast<double>() / px_per_m);
+    places.push_back(place);
+  }
+  const Place middle = places[places.size() / 2];
+  std::stable_sort(places.begin(), places.end(), [](const Place& one, const Place& other) { return one.cost < other.cost; });
+  std::vector<Place> apart = {middle};
+  for (const Place& place : places) {
+    if (static_cast<int>(apart.size()) < kPlaces && std::all_of(apart.begin(), apart.end(), [&](const Place& other) {
+          return (other.shift_px - place.shift_px).cwiseAbs().maxCoeff() >= 2;
+        })) {
+      apart.push_back(place);
+    }
+  }
+  return apart;
+}
+
+/// The best shift of the large templates about one angle.
+Eigen::Vector2i refinePlace(const ShiftedWindows& windows, const AngleRing& ring, int middle_angle, int reach_px) {
+  constexpr int kNeighbours = 2;
+  Eigen::Vector2i best = Eigen::Vector2i::Zero();
+  double least = 1e9;
+  for (int y = -reach_px; y <= reach_px; ++y) {
+    for (int x = -reach_px; x <= reach_px; ++x) {
+      const Eigen::VectorXf pixels = windows.at(0, {x, y});
+      const Eigen::VectorXf squares = pixels.cwiseAbs2();
+      for (int step = -kNeighbours; step <= kNeighbours; ++step) {
+        const int angle = (middle_angle + step + ring.shape().angles) % ring.shape().angles;
+        const int first = ring.firstRow()[static_cast<std::size_t>(angle)];
+        const int count = ring.firstRow()[static_cast<std::size_t>(angle) + 1] - first;
+        const Eigen::VectorXf parts = ring.bases().middleRows(first, count) * pixels;
+        const double total = ring.weights().row(angle).dot(squares) + kNoise * static_cast<double>(pixels.size());
+        const double unexplained = total - parts.squaredNorm();
+        if (unexplained < least) {
+          least = unexplained;
+          best = {x, y};
+        }
+      }
+    }
+  }
+  return best;
+}
+
+/// The large templates at one place.
+AngleFit fitThere(const FitStart& start, const AngleRing& ring, const Eigen::Vector2d& centre_patch) {
+  AngleFit fit;
+  fit.centre_patch = centre_patch;
+  const ShiftedWindows window(start, {}, ring, {centre_patch, 0});
+  Eigen::ArrayXd left = Eigen::ArrayXd::Zero(ring.shape().angles);
+  double total = 0.0;
+  for (std::size_t channel = 0; channel < window.channels(); ++channel) {
+    const Residuals residuals = residualsOf(ring, window.at(channel, Eigen::Vector2i::Zero()));
+    left += residuals.left.col(0);
+    total += residuals.total.col(0).mean();
+  }
+  for (Eigen::Index i = 0; i < left.size(); ++i) {
+    fit.unexplained.push_back(std::clamp(left[i] / total, 1e-6, 1.0));
+  }
+  fit.cost = costOf(left.minCoeff(), start, centre_patch);
+  return fit;
+}
+
+}  // namespace
+
+AngleFit fitAngle(const FitStart& start, const RingPair& rings) {
+  const cv::Mat mixture = strongestMixture(start);
+  const double coarse_px_per_m = rings.coarse.shape().radius_px / start.radius_m;
+  const double fine_px_per_m = rings.fine.shape().radius_px / start.radius_m;
+  const int reach_px = static_cast<int>(std::ceil(start.reach_m * coarse_px_per_m));
+  const ShiftedWindows coarse(start, mixture, rings.coarse, {start.centre_patch, reach_px});
+  AngleFit best;
+  for (const Place& place : findPlaces(start, coarse, rings.coarse, reach_px)) {
+    constexpr int kFineReach_px = 1;
+    const Eigen::Vector2d centre_patch = start.centre_patch + place.shift_px.cast<double>() / coarse_px_per_m;
+    const int angle = static_cast<int>(place.angle) * rings.fine.shape().angles / rings.coarse.shape().angles;
+    const ShiftedWindows fine(start, mixture, rings.fine, {centre_patch, kFineReach_px});
+    const Eigen::Vector2i shift_px = refinePlace(fine, rings.fine, angle, kFineReach_px);
+    AngleFit fit = fitThere(start, rings.fine, centre_patch + shift_px.cast<double>() / fine_px_per_m);
+    if (best.unexplained.empty() || fit.cost < best.cost) {
+      best = std::move(fit);
+    }
+  }
+  return best;
+}
+
+}  // namespace oikos::recognition
