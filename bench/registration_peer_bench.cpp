@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// align() beside PCL's IterativeClosestPointWithNormals on the same depth images, in turns, on one thread: the same scan points, the same
-// model rendered from the same start, normals counted on both sides.
+// align() beside PCL's IterativeClosestPointWithNormals and beside distance fields of the model's parts on the same depth images, in
+// turns, on one thread: the same scan points, the same start, normals counted everywhere. Fields are made before; their cost stands apart.
 #include <pcl/features/normal_3d.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/icp.h>
@@ -11,10 +11,14 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <random>
 
+#include "bench/registration/field_align.h"
+#include "bench/wilson.h"
 #include "registration/align.h"
 #include "tests/registration/furniture_scan.h"
 
@@ -37,6 +41,7 @@ double median(std::vector<double> values) {
 }
 
 struct Case {
+  std::size_t kind = 0;
   model::ArticulatedModel model;
   std::vector<double> joint_values;
   Eigen::Isometry3d T_map_true;
@@ -48,7 +53,8 @@ struct Case {
 Case makeCase(int number, double range_m, double range_deg) {
   std::mt19937_64 random(static_cast<std::uint64_t>(number) + 77);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const test::FurnitureKind& furniture = test::furnitureKinds()[static_cast<std::size_t>(number) % test::furnitureKinds().size()];
+  const std::size_t kind = static_cast<std::size_t>(number) % test::furnitureKinds().size();
+  const test::FurnitureKind& furniture = test::furnitureKinds()[kind];
   const model::ArticulatedModel real = test::trulyBuilt(furniture, 0.005, random);
   test::FurnitureScene world;
   world.model = &real;
@@ -56,9 +62,13 @@ Case makeCase(int number, double range_m, double range_deg) {
   world.T_map_model = Eigen::AngleAxisd(std::numbers::pi * uniform(random), Eigen::Vector3d::UnitZ());
   world.T_map_camera = test::cameraBefore(world.T_map_model, 2.0, (uniform(random) > 0.0 ? 1.0 : -1.0) * 42.0 * kDegree, 0.6);
   world.noise_seed = static_cast<std::uint64_t>(number);
-  Case made{test::believed(furniture), world.joint_values,
-            world.T_map_model,         {},
-            world.T_map_camera,        test::recordDepth(world, test::kinectCamera())};
+  Case made{kind,
+            test::believed(furniture),
+            world.joint_values,
+            world.T_map_model,
+            {},
+            world.T_map_camera,
+            test::recordDepth(world, test::kinectCamera())};
   made.T_map_start = Eigen::Translation3d(range_m * uniform(random), range_m * uniform(random), 0.0) *
                      Eigen::AngleAxisd(range_deg * kDegree * uniform(random), Eigen::Vector3d::UnitZ()) * made.T_map_true;
   return made;
@@ -92,6 +102,59 @@ Outcome runOurs(const Case& made, const registration::ScanConfig& scan_config) {
   outcome.ms = ms;
   outcome.points = points;
   return outcome;
+}
+
+/// Fields, made once a kind.
+class KindFields {
+ public:
+  explicit KindFields(const bench::FieldConfig& config) : config_(config) {}
+
+  const bench::FieldModel& of(const Case& made) {
+    std::optional<bench::FieldModel>& fields = fields_[made.kind];
+    if (!fields) {
+      ms_.push_back(cpuMs([&] { fields.emplace(made.model, made.joint_values, config_); }));
+      megabytes_.push_back(1e-6 * static_cast<double>(fields->bytes()));
+    }
+    return *fields;
+  }
+
+  void print() const {
+    std::printf("\nFields of %.1f cm, made once a kind: CPU ms %.0f (median; most %.0f), MB %.1f (most %.1f)\n", 100.0 * config_.voxel_m,
+                median(ms_), *std::max_element(ms_.begin(), ms_.end()), median(megabytes_),
+                *std::max_element(megabytes_.begin(), megabytes_.end()));
+  }
+
+ private:
+  bench::FieldConfig config_;
+  std::map<std::size_t, std::optional<bench::FieldModel>> fields_;
+  std::vector<double> ms_;
+  std::vector<double> megabytes_;
+};
+
+struct FieldOutcomes {
+  std::vector<Outcome> found;
+  std::vector<Outcome> judged;  ///< the same, with what align() says of its result: counts, overlap, covariance
+};
+
+void runFields(const Case& made, const bench::FieldModel& fields, const registration::ScanConfig& scan_config, FieldOutcomes& outcomes) {
+  render::Scene scene;
+  const int piece = scene.add(made.model, made.T_map_start, made.joint_values);
+  registration::ModelMotion motion(scene, piece, made.model, made.T_map_camera, {made.T_map_start, made.joint_values}, {});
+  registration::Scan scan;
+  bench::FieldAlignment found;
+  const double ms = cpuMs([&] {
+    scan = registration::makeScan(made.depth_m, test::kinectCamera(), scan_config);
+    found = bench::alignOnFields(fields, {scene, piece, made.joint_values, made.T_map_start, made.T_map_camera}, scan, {});
+  });
+  Outcome outcome = errorOf(made, found.T_map_model);
+  outcome.ms = ms;
+  outcome.points = found.inliers;
+  outcomes.found.push_back(outcome);
+  outcome.ms += cpuMs([&] {
+    motion.moveTo({found.T_map_model, made.joint_values});
+    outcome.points = registration::judge(motion, scan, {}).inliers;
+  });
+  outcomes.judged.push_back(outcome);
 }
 
 void estimateNormals(const PclCloud::Ptr& cloud) {
@@ -168,16 +231,18 @@ void print(const char* name, const std::vector<Outcome>& outcomes, double ours_m
     deg.push_back(outcome.error_deg);
     points += outcome.points / static_cast<double>(outcomes.size());
   }
-  const auto within =
-      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.error_cm < 3.0 && o.error_deg < 3.0; });
-  std::printf("| %-22s | %6.0f | %7.1f | %6.1fx | %.2f | %.2f | %ld of %zu |\n", name, points, median(ms), median(ms) / ours_ms, median(cm),
-              median(deg), within, outcomes.size());
+  const auto count = static_cast<int>(outcomes.size());
+  const auto within = static_cast<int>(
+      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.error_cm < 3.0 && o.error_deg < 3.0; }));
+  const auto [low, high] = bench::wilsonInterval(within, count);
+  std::printf("| %-25s | %6.0f | %7.1f | %6.2fx | %.2f | %.2f | %d of %d, %.1f %% (%.1f-%.1f) |\n", name, points, median(ms),
+              median(ms) / ours_ms, median(cm), median(deg), within, count, 100.0 * within / count, 100.0 * low, 100.0 * high);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Registration of furniture beside PCL's ICP"};
+  CLI::App app{"Registration of furniture beside PCL's ICP and distance fields"};
   int trials = 40;
   double range_m = 0.05;
   double range_deg = 3.0;
@@ -186,20 +251,28 @@ int main(int argc, char** argv) {
   app.add_option("--range-m", range_m, "start's offset in x and y, at most");
   app.add_option("--range-deg", range_deg, "and its turn");
   app.add_option("--step-px", scan_config.step_px, "one point in so many columns and rows");
+  bench::FieldConfig field_config;
+  app.add_option("--voxel-m", field_config.voxel_m, "of the distance fields")->check(CLI::Range(0.005, 0.05));
   CLI11_PARSE(app, argc, argv);
   std::vector<Outcome> ours;
   std::vector<Outcome> pcl;
+  FieldOutcomes on_fields;
+  KindFields kind_fields(field_config);
   for (int i = 0; i < trials; ++i) {
     const Case made = makeCase(i, range_m, range_deg);
     ours.push_back(runOurs(made, scan_config));
     pcl.push_back(runPcl(made, scan_config, 0.1));
+    runFields(made, kind_fields.of(made), scan_config, on_fields);
   }
   std::vector<double> ours_ms;
   for (const Outcome& outcome : ours) {
     ours_ms.push_back(outcome.ms);
   }
-  std::printf("| | points | CPU ms | | error cm | deg | within 3 cm, 3 deg |\n|---|---|---|---|---|---|---|\n");
+  std::printf("| | points | CPU ms | | error cm | deg | within 3 cm, 3 deg (95 %%) |\n|---|---|---|---|---|---|---|\n");
   print("align()", ours, median(ours_ms));
   print("PCL, ICP with normals", pcl, median(ours_ms));
+  print("distance fields", on_fields.found, median(ours_ms));
+  print("distance fields, judge()", on_fields.judged, median(ours_ms));
+  kind_fields.print();
   return 0;
 }
