@@ -43,6 +43,7 @@ struct Joint {
   std::string id;
   double upper;  ///< degrees or m
   bool turns;
+  double seen_s = 0.0;  ///< it is looked at before and after this time of the drive; 0: it is in view too shortly to be moved meanwhile
 };
 
 struct Route {
@@ -56,38 +57,38 @@ const std::vector<Route>& routes() {
   static const std::vector<Route> all = {
       {"kitchen",
        {1.1, 1.6, 75.0},
-       {"1.0 2.3 look -45", "0.9 2.2 yaw 172"},
-       {{"fridge-door-joint", 110.0, true},
-        {"fridge-freezer_door-joint", 110.0, true},
-        {"cupboard-door-joint", 110.0, true},
-        {"drawers-drawer_0-joint", 0.43, false},
-        {"drawers-drawer_1-joint", 0.43, false},
-        {"oven-door-joint", 90.0, true},
-        {"dishwasher-door-joint", 90.0, true},
+       {"1.0 2.3 look -45", "1.4 2.3 yaw 178"},
+       {{"fridge-door-joint", 110.0, true, 4.0},
+        {"fridge-freezer_door-joint", 110.0, true, 4.0},
+        {"cupboard-door-joint", 110.0, true, 4.0},
+        {"drawers-drawer_0-joint", 0.43, false, 3.5},
+        {"drawers-drawer_1-joint", 0.43, false, 3.5},
+        {"oven-door-joint", 90.0, true, 3.5},
+        {"dishwasher-door-joint", 90.0, true, 3.5},
         {"crockery-left_door-joint", 110.0, true},
         {"crockery-right_door-joint", 110.0, true}}},
       {"living room",
        {2.1, -1.9, -90.0},
        {"2.2 -2.7 look 40", "1.9 -2.6 yaw -165"},
-       {{"chest-drawer_0-joint", 0.33, false},
-        {"chest-drawer_1-joint", 0.33, false},
-        {"chest-drawer_2-joint", 0.33, false},
+       {{"chest-drawer_0-joint", 0.33, false, 3.5},
+        {"chest-drawer_1-joint", 0.33, false, 3.5},
+        {"chest-drawer_2-joint", 0.33, false, 3.5},
         {"sideboard-left_door-joint", 110.0, true},
         {"sideboard-right_door-joint", 110.0, true}}},
       {"bedroom",
        {7.0, 0.1, 0.0},
        {"7.6 -0.2 look 50", "7.4 -0.4 yaw -100"},
-       {{"wardrobe-left_door-joint", 110.0, true},
-        {"wardrobe-right_door-joint", 110.0, true},
+       {{"wardrobe-left_door-joint", 110.0, true, 3.0},
+        {"wardrobe-right_door-joint", 110.0, true, 3.0},
         {"linen-chest-drawer_0-joint", 0.33, false},
         {"linen-chest-drawer_1-joint", 0.33, false}}},
       {"hall and bathroom",
        {2.0, -0.2, 35.0},
        {"3.9 0.1", "4.7 0.4", "4.7 1.4 look -60"},
-       {{"shoe-cabinet-left_door-joint", 110.0, true},
-        {"shoe-cabinet-right_door-joint", 110.0, true},
-        {"washstand-left_door-joint", 110.0, true},
-        {"washstand-right_door-joint", 110.0, true}}},
+       {{"shoe-cabinet-left_door-joint", 110.0, true, 1.5},
+        {"shoe-cabinet-right_door-joint", 110.0, true, 1.5},
+        {"washstand-left_door-joint", 110.0, true, 7.0},
+        {"washstand-right_door-joint", 110.0, true, 7.0}}},
   };
   return all;
 }
@@ -109,7 +110,7 @@ std::string textOf(const std::string& id, double value, bool turns) {
   return id + " " + base::toFixedText(value, turns ? 1 : 3) + (turns ? " deg" : " m");
 }
 
-/// Two joints or three are moved by a fifth of their range or more, one of them in the middle of the drive in every other recording.
+/// Two joints or three are moved by a fifth of their range or more, one of them while it is in view in every other recording.
 std::vector<Change> drawChanges(const Route& route, const States& states, int recording, std::mt19937_64& random) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
   std::vector<Joint> joints = route.joints;
@@ -125,8 +126,8 @@ std::vector<Change> drawChanges(const Route& route, const States& states, int re
     }
     changes.push_back({joint, value, -1.0});
   }
-  if (recording % 2 == 1) {
-    changes.front().at_s = 3.0 + 2.0 * share(random);
+  if (recording % 2 == 1 && changes.front().joint.seen_s > 0.0) {
+    changes.front().at_s = changes.front().joint.seen_s + 0.4 * (share(random) - 0.5);
   }
   return changes;
 }
@@ -135,13 +136,20 @@ class Scenario {
  public:
   Scenario(const Options& options, fs::path folder) : options_(options), folder_(std::move(folder)), random_(options.seed) {
     fs::create_directories(home() / "scenes");
-    fs::copy_file(fs::path(OIKOS_DEMO_HOME) / "home.xml", home() / "home.xml");
+    fs::copy_file(fs::path(OIKOS_DEMO_HOME) / "home.xml", home() / "home.xml", fs::copy_options::overwrite_existing);
+    for (const char* file : {"history.sqlite", "history.sqlite-wal", "history.sqlite-shm"}) {
+      fs::remove(home() / file);
+    }
     for (const char* door : {"kitchen", "bathroom", "living", "bedroom"}) {
       states_[std::string(door) + "-door-door-joint"] = {95.0, true};
     }
   }
 
+  /// Unless a kept folder has the map already.
   void deploy() {
+    if (fs::exists(home() / "map")) {
+      return;
+    }
     auto script = base::loadConfig<simulate::SceneScript>({fs::path(OIKOS_DEMO_HOME) / "scenes" / "drive.toml", {}});
     believe(script);
     simulate("deployment", script);
@@ -222,6 +230,7 @@ class Scenario {
   void simulate(const std::string& name, const simulate::SceneScript& script) const {
     const fs::path file = home() / "scenes" / (name + ".toml");
     std::ofstream(file) << base::writeConfig(script);
+    fs::remove_all(drive(name));
     must({"simulate", file.string(), "--out", drive(name), "--quiet", "--seed", std::to_string(options_.seed)});
   }
 
@@ -255,6 +264,9 @@ class Scenario {
     false_ += false_here;
     int missed = 0;
     for (const Change& change : changes) {
+      if (!pending.contains(change.joint.id)) {
+        continue;  // it is back where the home has it: an earlier change was missed
+      }
       ++expected_;
       const bool is_found = told.contains(change.joint.id) && !wrong.contains(change.joint.id);
       found_ += is_found ? 1 : 0;
@@ -318,7 +330,7 @@ int main(int argc, char** argv) {
   app.add_option("--belief-mm", options.belief_mm, "standard deviation of believed dimensions and places");
   app.add_option("--threads", options.threads);
   app.add_option("--seed", options.seed);
-  app.add_option("--keep", options.keep, "an empty folder to work in, which stays");
+  app.add_option("--keep", options.keep, "a folder to work in, which stays; a map that is in it is used again");
   CLI11_PARSE(app, argc, argv);
   try {
     const test::TemporaryFolder folder;

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +75,14 @@ std::map<std::string, std::string> contentOf(const fs::path& folder) {
   return files;
 }
 
+std::set<std::string> subjectsOf(const std::vector<semantic::Event>& events) {
+  std::set<std::string> subjects;
+  for (const semantic::Event& event : events) {
+    subjects.insert(event.subject);
+  }
+  return subjects;
+}
+
 class Track : public ::testing::Test {
  protected:
   /// What the tests share: drives, and a mapped home that none of them changes.
@@ -110,8 +119,10 @@ class Track : public ::testing::Test {
   [[nodiscard]] Json wrongStates(const std::string& name) const {
     const ProcessResult result = runOikos({"evaluate", "states", home_.string(), drive(name), "--json"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
+    const Json answer = Json::parse(result.out);
+    EXPECT_GE(answer["states"].size(), 9U);
     Json wrong = Json::array();
-    for (const Json& state : Json::parse(result.out)["states"]) {
+    for (const Json& state : answer["states"]) {
       if (!state["right"].get<bool>()) {
         wrong.push_back(state);
       }
@@ -148,18 +159,17 @@ TEST_F(Track, TheHomeFollowsWhatIsSeen) {
   EXPECT_EQ(wrongStates("second"), Json::array());
   const std::vector<semantic::Event> first = events();
   ASSERT_EQ(first.size(), 2U);
-  EXPECT_EQ(first[0].subject, "fridge-door-joint");
-  EXPECT_EQ(first[1].subject, "drawers-drawer_0-joint");
-  EXPECT_EQ(first[1].frame, 28);  // 3.5 s at 8 Hz
-  EXPECT_EQ(first[1].recording, "second");
+  EXPECT_EQ(subjectsOf(first), (std::set<std::string>{"drawers-drawer_0-joint", "fridge-door-joint"}));
   for (const semantic::Event& event : first) {
+    EXPECT_EQ(event.recording, "second");
+    EXPECT_TRUE(event.subject == "fridge-door-joint" || event.frame == 28) << *event.frame;  // 3.5 s at 8 Hz
     EXPECT_EQ(base::readFile(home_ / event.evidence).substr(0, 3), "\xFF\xD8\xFF") << event.evidence;
     EXPECT_GT(event.confidence, 0.9);
     EXPECT_TRUE(event.before);
   }
   EXPECT_NE(base::readFile(home_ / "home.xml").find("asOf=\"2\""), std::string::npos);
   const ProcessResult asked = runOikos({"ask", home_.string(), "is the fridge open?", "--json"});
-  EXPECT_EQ(Json::parse(asked.out)["answer"], "yes") << asked.out;
+  EXPECT_TRUE(Json::parse(asked.out)["sentence"].get<std::string>().starts_with("Yes")) << asked.out;
 
   ASSERT_EQ(track({drive("third")}).exit_code, 0);
   EXPECT_EQ(wrongStates("third"), Json::array());
@@ -184,8 +194,9 @@ TEST_F(Track, ARecordingCountsOnceUntilItIsTakenBack) {
 /// Events as they are said, without their numbers.
 Json eventsOf(const ProcessResult& result) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Json answer = Json::parse(result.out);
   Json events = Json::array();
-  for (const Json& recording : Json::parse(result.out)["recordings"]) {
+  for (const Json& recording : answer["recordings"]) {
     events.push_back(recording["events"]);
   }
   return events;
@@ -233,8 +244,7 @@ TEST_F(Track, WhatIsKilledGoesOnWhereItStopped) {
       ASSERT_EQ(track({drive("second"), drive("third")}).exit_code, 0);
       const std::vector<semantic::Event> all = events();
       ASSERT_EQ(all.size(), 4U) << signal << " after " << wait_ms << " ms";
-      EXPECT_EQ(all[0].subject, "fridge-door-joint");
-      EXPECT_EQ(all[3].subject, "sink-cupboard-left_door-joint");
+      EXPECT_EQ(subjectsOf(all), (std::set<std::string>{"drawers-drawer_0-joint", "fridge-door-joint", "sink-cupboard-left_door-joint"}));
       EXPECT_EQ(wrongStates("third"), Json::array());
     }
   }
@@ -247,8 +257,8 @@ TEST_F(Track, ARunningDaemonSeesIt) {
   const ProcessResult result = track({drive("second")});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("home.xml is left"), std::string::npos) << result.err;
-  const std::string told = stream.receiveUntil("drawers-drawer_0-joint");
-  EXPECT_NE(told.find("fridge-door-joint"), std::string::npos) << told;
+  const std::string told = stream.receiveUntil("fridge-door-joint");  // the second one
+  EXPECT_NE(told.find("drawers-drawer_0-joint"), std::string::npos) << told;
 }
 
 TEST_F(Track, OnePieceOnDemand) {

@@ -16,13 +16,17 @@ namespace fs = std::filesystem;
 
 class ContentDigest : public ::testing::Test {
  protected:
-  ContentDigest() { test::writeTumRecording(folder_.path() / "one", 3); }
+  ContentDigest() {
+    fs::create_directory(folder_.path() / "one");
+    test::writeTumRecording(folder_.path() / "one", 3);
+    digest_ = contentDigest(folder_.path() / "one");
+  }
   [[nodiscard]] fs::path copy(const char* name) const {
     fs::copy(folder_.path() / "one", folder_.path() / name, fs::copy_options::recursive);
     return folder_.path() / name;
   }
   test::TemporaryFolder folder_;
-  std::string digest_ = contentDigest(folder_.path() / "one");
+  std::string digest_;
 };
 
 TEST_F(ContentDigest, IsThatOfTheContentAndNotOfTheFolder) {
