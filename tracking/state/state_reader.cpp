@@ -123,12 +123,22 @@ struct StateReader::Track {
     }
     return i;
   }
+  /// What one image alone says: there is nothing to hold it against.
+  [[nodiscard]] std::vector<JointSpan> loneSpan(std::size_t joint, const std::vector<SeenFrame>& frames) const {
+    const registration::JointEstimate& estimate = shots.front().joints[joint];
+    const std::int64_t stamp_ns = frames[static_cast<std::size_t>(shots.front().index)].stamp_ns;
+    if (estimate.status == JointStatus::kNotInView) {
+      return {};
+    }
+    return {{0, 0, stamp_ns, stamp_ns, estimate.status, estimate.value, estimate.variance, estimate.confidence}};
+  }
+
   /// By joint of the registration.
   [[nodiscard]] std::vector<std::vector<JointSpan>> spans(const std::vector<SeenFrame>& frames,
                                                           const registration::JointFusionConfig& config) const {
     std::vector<std::vector<JointSpan>> spans;
     for (std::size_t joint = 0; !shots.empty() && joint < shots.front().joints.size(); ++joint) {
-      spans.push_back(registration::fuse(sightingsOf(shots, joint, frames), config));
+      spans.push_back(shots.size() == 1 ? loneSpan(joint, frames) : registration::fuse(sightingsOf(shots, joint, frames), config));
     }
     return spans;
   }

@@ -190,6 +190,21 @@ TEST(StateReader, WhatIsOutOfViewOrNotLocatedSaysNothing) {
   EXPECT_TRUE(reader.conclude().empty());
 }
 
+TEST(StateReader, OneImageAloneIsAReadingButNoEvent) {
+  const semantic::Home home = homeWithFridge();
+  const Drive drive(9);
+  const RecordingStates states = readAll(home, {{4, drive.frame(4, {0.0, 60.0 * kDegree})}}, 1);
+  ASSERT_EQ(states.pieces.size(), 1U);
+  const JointReading& door = states.pieces[0].joints[1];
+  ASSERT_EQ(door.stays.size(), 1U);
+  EXPECT_TRUE(door.stays[0].isFound());
+  EXPECT_NEAR(door.stays[0].span.value, 60.0 * kDegree, 2.5 * kDegree);
+  EXPECT_TRUE(stateEvents(states, home, {"drive", 0}, {}).empty());
+  StateConfig lone;
+  lone.change.min_images = 1;
+  EXPECT_EQ(stateEvents(states, home, {"drive", 0}, lone).size(), 1U);
+}
+
 TEST(StateReader, OnePieceOnDemand) {
   const semantic::Home home = homeWithFridge();
   EXPECT_EQ(StateReader(home, {}, test::kinectCamera(), {}, 1, "fridge").pieces().size(), 1U);
