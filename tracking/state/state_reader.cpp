@@ -90,13 +90,14 @@ registration::PixelBox cropOf(const ArticulatedPiece& piece, int joint, double v
 /// What is known of a piece so far.
 struct StateReader::Track {
   std::unique_ptr<registration::ArticulatedRegistration> registration;  ///< from the first image on,
-  std::optional<render::Scene> about;                                   ///< and this, too
+  std::unique_ptr<render::Scene> about;                                 ///< and this, too
   std::set<int> wanted;                                                 ///< indices of the frames
   std::vector<Shot> shots;                                              ///< in the order of time
   int frames_in_view = 0;
 
   [[nodiscard]] std::vector<int> indices() const {
     std::vector<int> indices;
+    indices.reserve(shots.size());
     for (const Shot& shot : shots) {
       indices.push_back(shot.index);
     }
@@ -265,7 +266,7 @@ void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const re
   const ArticulatedPiece& of = pieces_[piece];
   if (!track.registration) {
     track.registration = std::make_unique<registration::ArticulatedRegistration>(of.model, config_.registration);
-    track.about = surroundings_.sceneWithout(of);
+    track.about = std::make_unique<render::Scene>(surroundings_.sceneWithout(of));
   }
   registration::ImageContext context = contextOf(frame, of);
   context.surroundings = viewOf(*track.about, scan.camera, frame.T_map_camera);
