@@ -10,6 +10,20 @@ namespace oikos::recognition {
 
 namespace {
 
+/// Brightness and two tints, which shades and shadows leave as they are.
+cv::Mat brightnessAndTints(const cv::Mat& color) {
+  constexpr float kDark = 0.25F;  // below it tints are noise
+  cv::Mat channels(color.size(), CV_32FC3);
+  for (int v = 0; v < color.rows; ++v) {
+    for (int u = 0; u < color.cols; ++u) {
+      const auto& bgr = color.ptr<cv::Vec3f>(v)[u];
+      const float sum = bgr[0] + bgr[1] + bgr[2];
+      channels.ptr<cv::Vec3f>(v)[u] = {sum / 3.0F, (bgr[2] - bgr[1]) / (sum + kDark), (bgr[0] - 0.5F * (bgr[1] + bgr[2])) / (sum + kDark)};
+    }
+  }
+  return channels;
+}
+
 /// A piece of the face's plane as large as a ring's window, moved by up to `reach_px` each way.
 class ShiftedWindows {
  public:
@@ -17,7 +31,7 @@ class ShiftedWindows {
     Eigen::Vector2d centre_patch;
     int shift_px;
   };
-  /// `mixture`: 1x3, of the colours; empty: all three.
+  /// `mixture`: 1x3, of the colours; empty: brightness and tints.
   ShiftedWindows(const FitStart& start, const cv::Mat& mixture, const AngleRing& ring, const Reach& reach)
       : ring_(ring), reach_px_(reach.shift_px) {
     const int reach_px = reach.shift_px;
@@ -27,14 +41,21 @@ class ShiftedWindows {
     grid.origin_px = Eigen::Vector2d(ring.originColumn() + reach_px, ring.originRow() + reach_px);
     grid.centre_patch = reach.centre_patch;
     cv::Mat patch = samplePatch(start.color, start.camera, start.view, grid);
-    if (!mixture.empty()) {
+    if (mixture.empty()) {
+      patch = brightnessAndTints(patch);
+    } else {
       cv::transform(patch, patch, mixture);
     }
+    patch -= cv::mean(patch);  // keeps sums of squares exact
     cv::split(patch, channels_);
   }
 
   [[nodiscard]] std::size_t channels() const { return channels_.size(); }
-  /// The pixels of the support, their mean taken away.
+  /// The energy of the first channel that lies outside the support, a pixel of the support.
+  [[nodiscard]] double energyOutside(const Eigen::VectorXf& pixels) const {
+    return (cv::norm(channels_[0], cv::NORM_L2SQR) - pixels.squaredNorm()) / static_cast<double>(pixels.size());
+  }
+  /// The pixels of the support; the mean of the whole piece is 0.
   [[nodiscard]] Eigen::VectorXf at(std::size_t channel, const Eigen::Vector2i& shift_px) const {
     const cv::Mat& image = channels_[channel];
     Eigen::VectorXf pixels(static_cast<Eigen::Index>(ring_.support().size()));
@@ -43,7 +64,6 @@ class ShiftedWindows {
       const int column = ring_.support()[i] % ring_.columns() + reach_px_ + shift_px.x();
       pixels[static_cast<Eigen::Index>(i)] = image.ptr<float>(row)[column];
     }
-    pixels.array() -= pixels.mean();  // keeps sums of squares exact
     return pixels;
   }
 
@@ -79,18 +99,25 @@ Residuals residualsOf(const AngleRing& ring, const Eigen::MatrixXf& pictures) {
 struct Place {
   Eigen::Vector2i shift_px = Eigen::Vector2i::Zero();
   Eigen::Index angle = 0;
+  double outside = 0.0;  ///< energy that no template is asked to explain
   double cost = 0.0;
 };
-constexpr int kPlaces = 4;
+constexpr int kPlaces = 5;
+// What lies outside the support counts, too, though less: else the best place would be where there is nothing to explain.
+constexpr double kCoarseOutside = 0.6;
+constexpr double kFineOutside = 0.2;
 
 /// What a place costs: half of the residuals' part of the likelihood (state_belief.h), and how far it is from the start and from where the
-/// knob is believed to be.
-double costOf(double unexplained, const FitStart& start, const Eigen::Vector2d& centre_patch) {
+/// knob is believed to be. `residual`: mean square over all of the picture about the start, explained or not.
+double costOf(double residual, const FitStart& start, const Eigen::Vector2d& centre_patch) {
   constexpr double kEvidence = 30.0;
   constexpr double kStartSigma = 0.22;  // in radii
-  const double off_start = (centre_patch - start.centre_patch).squaredNorm() / std::pow(kStartSigma * start.radius_m, 2);
+  // Where its sides can be seen, what looks like the middle of a knob may be below the middle of its face.
+  const double along_tilt = std::hypot(kStartSigma, 0.3 * std::tan(start.view.tilt_rad));
+  const Eigen::Vector2d off = (centre_patch - start.centre_patch) / start.radius_m;
+  const double off_start = std::pow(off.x() / kStartSigma, 2) + std::pow(off.y() / along_tilt, 2);
   const double off_belief = centre_patch.squaredNorm() / std::pow(start.belief_sigma_m, 2);
-  return 0.5 * (kEvidence * std::log(std::max(1e-6, unexplained)) + off_start + off_belief);
+  return 0.5 * (kEvidence * std::log(std::max(1e-9, residual)) + off_start + off_belief);
 }
 
 /// The mixture of the colours that varies most about the start: a red knob on grey has no outline in brightness.
@@ -133,7 +160,9 @@ std::vector<Place> findPlaces(const FitStart& start, const ShiftedWindows& windo
     Place place;
     place.shift_px = {i % side - reach_px, i / side - reach_px};
     const double least = residuals.left.col(i).minCoeff(&place.angle);
-    place.cost = costOf(least, start, start.centre_patch + place.shift_px.cast<double>() / px_per_m);
+    place.outside = windows.energyOutside(pixels.col(i));
+    place.cost = costOf(least / static_cast<double>(pixels.rows()) + kCoarseOutside * place.outside, start,
+                        start.centre_patch + place.shift_px.cast<double>() / px_per_m);
     places.push_back(place);
   }
   const Place middle = places[places.size() / 2];
@@ -149,11 +178,15 @@ std::vector<Place> findPlaces(const FitStart& start, const ShiftedWindows& windo
   return apart;
 }
 
+struct Refined {
+  Eigen::Vector2i shift_px = Eigen::Vector2i::Zero();
+  double residual = 1e9;  ///< mean square
+};
+
 /// The best shift of the large templates about one angle.
-Eigen::Vector2i refinePlace(const ShiftedWindows& windows, const AngleRing& ring, int middle_angle, int reach_px) {
+Refined refinePlace(const ShiftedWindows& windows, const AngleRing& ring, int middle_angle, int reach_px) {
   constexpr int kNeighbours = 2;
-  Eigen::Vector2i best = Eigen::Vector2i::Zero();
-  double least = 1e9;
+  Refined best;
   for (int y = -reach_px; y <= reach_px; ++y) {
     for (int x = -reach_px; x <= reach_px; ++x) {
       const Eigen::VectorXf pixels = windows.at(0, {x, y});
@@ -162,12 +195,10 @@ Eigen::Vector2i refinePlace(const ShiftedWindows& windows, const AngleRing& ring
         const int angle = (middle_angle + step + ring.shape().angles) % ring.shape().angles;
         const int first = ring.firstRow()[static_cast<std::size_t>(angle)];
         const int count = ring.firstRow()[static_cast<std::size_t>(angle) + 1] - first;
-        const Eigen::VectorXf parts = ring.bases().middleRows(first, count) * pixels;
-        const double total = ring.weights().row(angle).dot(squares) + kNoise * static_cast<double>(pixels.size());
-        const double unexplained = total - parts.squaredNorm();
-        if (unexplained < least) {
-          least = unexplained;
-          best = {x, y};
+        const double explained = (ring.bases().middleRows(first, count) * pixels).squaredNorm();
+        const double residual = (ring.weights().row(angle).dot(squares) - explained) / static_cast<double>(pixels.size()) + kNoise;
+        if (residual < best.residual) {
+          best = {{x, y}, residual};
         }
       }
     }
@@ -175,23 +206,38 @@ Eigen::Vector2i refinePlace(const ShiftedWindows& windows, const AngleRing& ring
   return best;
 }
 
-/// The large templates at one place.
+/// The large templates at one place. Each channel has residuals of its own size: their logarithms are averaged.
 AngleFit fitThere(const FitStart& start, const AngleRing& ring, const Eigen::Vector2d& centre_patch) {
   AngleFit fit;
   fit.centre_patch = centre_patch;
   const ShiftedWindows window(start, {}, ring, {centre_patch, 0});
-  Eigen::ArrayXd left = Eigen::ArrayXd::Zero(ring.shape().angles);
-  double total = 0.0;
+  Eigen::ArrayXd shares = Eigen::ArrayXd::Zero(ring.shape().angles);
   for (std::size_t channel = 0; channel < window.channels(); ++channel) {
     const Residuals residuals = residualsOf(ring, window.at(channel, Eigen::Vector2i::Zero()));
-    left += residuals.left.col(0);
-    total += residuals.total.col(0).mean();
+    shares += (residuals.left.col(0) / residuals.total.col(0).mean()).max(1e-6).log();
   }
-  for (Eigen::Index i = 0; i < left.size(); ++i) {
-    fit.unexplained.push_back(std::clamp(left[i] / total, 1e-6, 1.0));
+  shares /= static_cast<double>(window.channels());
+  for (Eigen::Index i = 0; i < shares.size(); ++i) {
+    fit.unexplained.push_back(std::clamp(std::exp(shares[i]), 1e-6, 1.0));
   }
-  fit.cost = costOf(left.minCoeff(), start, centre_patch);
   return fit;
+}
+
+double leastOf(const AngleFit& fit) {
+  return *std::min_element(fit.unexplained.begin(), fit.unexplained.end());
+}
+
+/// Half a pixel aside where that is better.
+AngleFit between(const FitStart& start, const AngleRing& ring, AngleFit best) {
+  const double step_m = 0.5 * start.radius_m / ring.shape().radius_px;
+  const Eigen::Vector2d middle_patch = best.centre_patch;
+  for (const Eigen::Vector2d& side : {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1)}) {
+    AngleFit fit = fitThere(start, ring, middle_patch + step_m * side);
+    if (leastOf(fit) < leastOf(best)) {
+      best = std::move(fit);
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -203,18 +249,22 @@ AngleFit fitAngle(const FitStart& start, const RingPair& rings) {
   const int reach_px = static_cast<int>(std::ceil(start.reach_m * coarse_px_per_m));
   const ShiftedWindows coarse(start, mixture, rings.coarse, {start.centre_patch, reach_px});
   AngleFit best;
+  double least = 1e9;
   for (const Place& place : findPlaces(start, coarse, rings.coarse, reach_px)) {
     constexpr int kFineReach_px = 1;
     const Eigen::Vector2d centre_patch = start.centre_patch + place.shift_px.cast<double>() / coarse_px_per_m;
     const int angle = static_cast<int>(place.angle) * rings.fine.shape().angles / rings.coarse.shape().angles;
     const ShiftedWindows fine(start, mixture, rings.fine, {centre_patch, kFineReach_px});
-    const Eigen::Vector2i shift_px = refinePlace(fine, rings.fine, angle, kFineReach_px);
-    AngleFit fit = fitThere(start, rings.fine, centre_patch + shift_px.cast<double>() / fine_px_per_m);
-    if (best.unexplained.empty() || fit.cost < best.cost) {
+    const Refined refined = refinePlace(fine, rings.fine, angle, kFineReach_px);
+    AngleFit fit = fitThere(start, rings.fine, centre_patch + refined.shift_px.cast<double>() / fine_px_per_m);
+    const double share = leastOf(fit);
+    const double cost = costOf(std::sqrt(share * (refined.residual + kFineOutside * place.outside)), start, fit.centre_patch);
+    if (cost < least) {
+      least = cost;
       best = std::move(fit);
     }
   }
-  return best;
+  return between(start, rings.fine, std::move(best));
 }
 
 }  // namespace oikos::recognition

@@ -30,7 +30,6 @@ struct AngleFit {
   Eigen::Vector2d centre_patch = Eigen::Vector2d::Zero();  ///< where the face's middle is
   /// The share of the picture's variation that no template of this index explains, 0 to 1; AngleRing::bases says what an index means.
   std::vector<double> unexplained;
-  double cost = 0.0;  ///< negative logarithm of the probability of the best of them at this place, but for a constant
 };
 
 /// Where the templates fit best, and how well each does there.

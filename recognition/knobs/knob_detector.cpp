@@ -82,7 +82,11 @@ std::vector<KnobDetection> bestApart(std::vector<KnobDetection> found, double ap
 }  // namespace
 
 std::vector<std::string> DetectorConfig::validate() const {
-  return base::ConfigRules().greater("search_m", search_m, 0.0).between("layer_ratio", layer_ratio, 1.0, 2.0).messages();
+  return base::ConfigRules()
+      .between("search_m", search_m, 0.001, 0.5)
+      .between("layer_ratio", layer_ratio, 1.0, 2.0)
+      .between("min_score", min_score, -10.0, 10.0)
+      .messages();
 }
 
 std::vector<KnobDetection> detectKnobs(const FaceImage& image, const DetectorModel& model, const DetectorConfig& config) {

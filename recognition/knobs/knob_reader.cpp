@@ -48,6 +48,9 @@ std::vector<std::string> KnobReaderConfig::validate() const {
   return base::ConfigRules()
       .between("max_tilt_deg", max_tilt_deg, 0.0, 75.0)
       .greater("min_diameter_px", min_diameter_px, 0.0)
+      .greater("registration_sigma_m", registration_sigma_m, 0.0)
+      .between("max_proposals", max_proposals, 1, 100)
+      .between("min_score", min_score, -100.0, 100.0)
       .between("max_unexplained", max_unexplained, 0.0, 1.0)
       .greater("evidence_share", evidence_share, 0.0)
       .greater("max_evidence", max_evidence, 0.0)
@@ -95,6 +98,9 @@ void KnobReader::readAngle(const AngleFit& fit, const FaceView& view, KnobReadin
 std::vector<KnobReader::Found> KnobReader::find(const KnobPicture& picture, const FaceView& view) {
   std::vector<KnobDetection> proposals = detectKnobs({picture.color, picture.camera, view, face_.radius_m}, detector_, config_.detector);
   proposals.resize(std::min(proposals.size(), static_cast<std::size_t>(config_.max_proposals)));
+  if (proposals.empty()) {  // then only a very good fit counts
+    proposals.push_back({Eigen::Vector2d::Zero(), face_.radius_m, config_.detector.min_score});
+  }
   std::vector<Found> found;
   for (const KnobDetection& proposal : proposals) {
     Found one;
@@ -106,6 +112,7 @@ std::vector<KnobReader::Found> KnobReader::find(const KnobPicture& picture, cons
     std::sort(ordered.begin(), ordered.end());
     one.unexplained = ordered.front();
     one.distinctness = std::log(ordered[ordered.size() / 2] / ordered.front());
+    // A logistic regression on pictures of training panels, rounded.
     one.score = 2.0 * proposal.score - std::log(one.unexplained) + 2.0 * one.distinctness;
     if (one.score < config_.min_score) {
       continue;

@@ -20,8 +20,8 @@ struct KnobReaderConfig {
   double min_diameter_px = 16.0;        ///< nor smaller knobs
   double registration_sigma_m = 0.005;  ///< how far a knob is from where it is believed, each way
   int max_proposals = 3;                ///< of the detector, the best, that are compared with the knob's own render
-  double min_score = 0.5;               ///< of detector and fit together: less is no knob
-  double max_unexplained = 0.6;         ///< of the picture's variation by the best template: more is no such knob
+  double min_score = -0.5;              ///< of detector and fit together: less is no knob
+  double max_unexplained = 0.75;        ///< of the picture's variation by the best template: more is no such knob
   double evidence_share = 0.05;         ///< independent pixels / pixels of the knob
   double max_evidence = 60.0;           ///< light, colours and shape are modelled no better than that, however large the picture
   double detent_sigma_deg = 3.0;        ///< how far a knob rests from the angle of its state

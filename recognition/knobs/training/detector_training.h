@@ -13,11 +13,11 @@
 namespace oikos::recognition {
 
 struct DetectorTrainingConfig {
-  int panels = 6000;            ///< renders; a third of them without a knob
+  int panels = 4000;            ///< renders; a third of them without a knob
   int negatives_per_panel = 4;  ///< windows by chance, before the first round
   int rounds = 3;               ///< of looking for windows that are wrongly taken for knobs
   int hard_per_panel = 6;       ///< of them in each round, the worst first
-  double cost = 0.02;           ///< of a window on the wrong side of the margin (C of the support vector machine)
+  double cost = 1.0;            ///< of a window on the wrong side of the margin (C of the support vector machine)
   double false_alarms = 0.01;   ///< a picture, on panels that were held back: sets the threshold
 
   template <class Visitor>

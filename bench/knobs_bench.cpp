@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Knobs found and read in simulated pictures. Their shapes, materials and lights are none that the detector was trained on; what is
+// believed of them is off as a registration and a tape measure are.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "bench/knobs/trials.h"
+#include "core/base/degrees.h"
+#include "core/base/read_file.h"
+#include "recognition/knobs/training/detector_training.h"
+
+namespace {
+
+using namespace oikos;
+using namespace oikos::recognition;
+
+struct Options {
+  int images = 600;
+  int singles = 4000;
+  int learnt = 0;
+  int threads = 2;
+  std::uint64_t seed = 1;
+  std::string detector;
+  bool has_training_look = false;
+};
+
+/// Wilson's interval at 95 %.
+std::pair<double, double> interval(int successes, int n) {
+  const double z = 1.96;
+  const double p = static_cast<double>(successes) / n;
+  const double middle = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
+  const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
+  return {middle - half, middle + half};
+}
+
+std::string rate(long successes, long n) {
+  char text[100];
+  const auto [low, high] = interval(static_cast<int>(successes), std::max(1, static_cast<int>(n)));
+  std::snprintf(text, sizeof text, "%.2f %% (%ld of %ld; %.2f to %.2f)",
+                100.0 * static_cast<double>(successes) / static_cast<double>(std::max(1L, n)), successes, n, 100.0 * std::max(0.0, low),
+                100.0 * high);
+  return text;
+}
+
+// ---- Detection
+
+void reportAlarms(const char* name, const std::vector<bench::DetectionTrial>& trials,
+                  std::vector<bench::Alarm> bench::DetectionTrial::*list, double threshold) {
+  long knobs = 0;
+  long found = 0;
+  long alarms = 0;
+  for (const bench::DetectionTrial& trial : trials) {
+    knobs += trial.knobs;
+    for (const bench::Alarm& alarm : trial.*list) {
+      found += alarm.score > threshold && alarm.is_knob ? 1 : 0;
+      alarms += alarm.score > threshold && !alarm.is_knob ? 1 : 0;
+    }
+  }
+  const double n = static_cast<double>(std::max<std::size_t>(1, trials.size()));
+  const double per_image = static_cast<double>(alarms) / n;
+  // Byar's approximation of the upper end of a Poisson count's 95 % interval.
+  const double c = static_cast<double>(alarms) + 1.0;
+  const double high = c * std::pow(1.0 - 1.0 / (9.0 * c) + 1.96 / (3.0 * std::sqrt(c)), 3.0) / n;
+  std::printf("%-22s at %5.2f: found %s; %ld false alarms, %.3f an image (to %.3f)\n", name, threshold, rate(found, knobs).c_str(), alarms,
+              per_image, high);
+}
+
+void reportDetection(const std::vector<bench::DetectionTrial>& trials, const DetectorModel& detector) {
+  for (const double threshold : {-0.5, 0.0, 0.5, static_cast<double>(detector.threshold)}) {
+    reportAlarms("detector alone", trials, &bench::DetectionTrial::alone, threshold);
+  }
+  const double own = KnobReaderConfig().min_score;
+  for (const double threshold : {own, own + 0.5, own + 1.0, own + 1.5}) {
+    reportAlarms("with the knob's render", trials, &bench::DetectionTrial::confirmed, threshold);
+  }
+  double ms = 0.0;
+  int regions = 0;
+  for (const bench::DetectionTrial& trial : trials) {
+    ms += trial.ms;
+    regions += trial.regions;
+  }
+  std::printf("%.2f ms a region\n\n", ms / std::max(1, regions));
+}
+
+// ---- Reading
+
+void reportReadings(const std::string& name, const std::vector<const bench::ReadingTrial*>& trials) {
+  long right = 0;
+  long told = 0;
+  long told_right = 0;
+  std::vector<double> errors;
+  double sum = 0.0;
+  std::vector<double> normalised;
+  for (const bench::ReadingTrial* trial : trials) {
+    right += trial->is_right ? 1 : 0;
+    told += trial->reading.status == KnobStatus::kRead ? 1 : 0;
+    told_right += trial->reading.status == KnobStatus::kRead && trial->is_right ? 1 : 0;
+    if (trial->reading.state) {
+      sum += trial->error_deg;
+      errors.push_back(trial->error_deg);
+      normalised.push_back(std::pow(trial->error_deg * base::kRadPerDeg / trial->reading.sigma_rad, 2));
+    }
+  }
+  std::sort(errors.begin(), errors.end());
+  std::sort(normalised.begin(), normalised.end());
+  const auto quantile = [](const std::vector<double>& values, double share) {
+    return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  const auto n = static_cast<long>(trials.size());
+  std::printf("%-14s error mean %.2f median %.2f p95 %.2f deg; right %s; told %.1f %%, of them right %s; nees median %.2f\n", name.c_str(),
+              sum / static_cast<double>(std::max<std::size_t>(1, errors.size())), quantile(errors, 0.5), quantile(errors, 0.95),
+              rate(right, n).c_str(), 100.0 * static_cast<double>(told) / static_cast<double>(std::max(1L, n)),
+              rate(told_right, told).c_str(), quantile(normalised, 0.5));
+}
+
+void reportLearnt(const std::vector<bench::ReadingTrial>& trials) {
+  for (const auto& [method, name] : enumTable(AngleMethod{})) {
+    double sum = 0.0;
+    long right = 0;
+    for (const bench::ReadingTrial& trial : trials) {
+      sum += trial.learnt_error_deg.at(method);
+      right += trial.learnt_is_right.at(method) ? 1 : 0;
+    }
+    std::printf("%-14s error mean %.2f deg; right %s\n", std::string(name).c_str(), sum / static_cast<double>(trials.size()),
+                rate(right, static_cast<long>(trials.size())).c_str());
+  }
+}
+
+void reportReading(const std::vector<bench::ReadingTrial>& trials) {
+  std::map<std::string, std::vector<const bench::ReadingTrial*>> groups;
+  double ms = 0.0;
+  for (const bench::ReadingTrial& trial : trials) {
+    ms += trial.ms;
+    groups["all"].push_back(&trial);
+    groups[bench::testKnobs()[trial.family].name].push_back(&trial);
+    groups["tilt " + std::to_string(static_cast<int>(trial.tilt_deg / 10.0) * 10)].push_back(&trial);
+    groups[trial.diameter_px < 36.0 ? "24 to 36 px" : trial.diameter_px < 60.0 ? "36 to 60 px" : "60 to 120 px"].push_back(&trial);
+    groups["= " + std::string(base::toString(trial.reading.status))].push_back(&trial);
+  }
+  for (const auto& [name, of] : groups) {
+    reportReadings(name, of);
+  }
+  if (!trials.empty() && !trials.front().learnt_error_deg.empty()) {
+    reportLearnt(trials);
+  }
+  std::printf("%.2f ms a knob\n", ms / static_cast<double>(std::max<std::size_t>(1, trials.size())));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Knobs found and read in simulated pictures.");
+  app.add_option("--images", options.images, "pictures for detection, with none, one or several knobs");
+  app.add_option("--singles", options.singles, "pictures of one knob");
+  app.add_option("--learnt", options.learnt, "renders to train the forest and the regressions on, which are then measured, too");
+  app.add_option("--threads", options.threads);
+  app.add_option("--seed", options.seed);
+  app.add_option("--detector", options.detector, "a file that `oikos model train knobs` has written, instead of the shipped one");
+  app.add_flag("--training-look", options.has_training_look, "detection in pictures like those of the training, to choose thresholds on");
+  CLI11_PARSE(app, argc, argv);
+  bench::TrialSetup setup;
+  setup.look = options.has_training_look ? trainingLook() : bench::testLook();
+  setup.detector = options.detector.empty() ? shippedDetector() : parseDetector(base::readFile(options.detector), options.detector);
+  setup.seed = options.seed;
+  setup.threads = options.threads;
+  if (options.images > 0) {
+    reportDetection(bench::runDetection(options.images, setup), setup.detector);
+  }
+  if (options.singles > 0) {
+    std::optional<AngleModels> models;
+    if (options.learnt > 0) {
+      AngleTrainingConfig config;
+      config.renders = options.learnt;
+      models.emplace(trainAngles(trainingLook(), config, {0, options.threads, {}}));
+      setup.angle_models = &*models;
+    }
+    reportReading(bench::runReading(options.singles, setup));
+  }
+  return 0;
+}
