@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <opencv2/core.hpp>
 
 namespace oikos::recognition {
@@ -107,10 +108,11 @@ constexpr int kPlaces = 5;
 constexpr double kCoarseOutside = 0.6;
 constexpr double kFineOutside = 0.2;
 
+constexpr double kEvidence = 30.0;  // independent pixels, as far as places are concerned
+
 /// What a place costs: half of the residuals' part of the likelihood (state_belief.h), and how far it is from the start and from where the
 /// knob is believed to be. `residual`: mean square over all of the picture about the start, explained or not.
 double costOf(double residual, const FitStart& start, const Eigen::Vector2d& centre_patch) {
-  constexpr double kEvidence = 30.0;
   constexpr double kStartSigma = 0.22;  // in radii
   // Where its sides can be seen, what looks like the middle of a knob may be below the middle of its face.
   const double along_tilt = std::hypot(kStartSigma, 0.3 * std::tan(start.view.tilt_rad));
@@ -227,17 +229,36 @@ double leastOf(const AngleFit& fit) {
   return *std::min_element(fit.unexplained.begin(), fit.unexplained.end());
 }
 
-/// Half a pixel aside where that is better.
-AngleFit between(const FitStart& start, const AngleRing& ring, AngleFit best) {
+/// A place and what it costs with the angle that is best there.
+struct Candidate {
+  AngleFit fit;
+  double cost = 0.0;
+};
+
+/// Half a pixel aside of the best place.
+std::vector<Candidate> besides(const FitStart& start, const AngleRing& ring, const Candidate& best) {
+  std::vector<Candidate> found;
   const double step_m = 0.5 * start.radius_m / ring.shape().radius_px;
-  const Eigen::Vector2d middle_patch = best.centre_patch;
   for (const Eigen::Vector2d& side : {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1)}) {
-    AngleFit fit = fitThere(start, ring, middle_patch + step_m * side);
-    if (leastOf(fit) < leastOf(best)) {
-      best = std::move(fit);
+    Candidate candidate{fitThere(start, ring, best.fit.centre_patch + step_m * side), 0.0};
+    candidate.cost = best.cost + 0.5 * kEvidence * std::log(leastOf(candidate.fit) / leastOf(best.fit));
+    found.push_back(std::move(candidate));
+  }
+  return found;
+}
+
+/// The best place; of each angle what the place that suits it best leaves unexplained, made worse by what that place costs more.
+AngleFit merge(const std::vector<Candidate>& candidates) {
+  const auto best =
+      std::min_element(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  AngleFit merged = best->fit;
+  for (const Candidate& candidate : candidates) {
+    const double dearer = std::exp((candidate.cost - best->cost) / (0.5 * kEvidence)) * leastOf(best->fit) / leastOf(candidate.fit);
+    for (std::size_t i = 0; i < merged.unexplained.size(); ++i) {
+      merged.unexplained[i] = std::min(merged.unexplained[i], dearer * candidate.fit.unexplained[i]);
     }
   }
-  return best;
+  return merged;
 }
 
 }  // namespace
@@ -248,23 +269,23 @@ AngleFit fitAngle(const FitStart& start, const RingPair& rings) {
   const double fine_px_per_m = rings.fine.shape().radius_px / start.radius_m;
   const int reach_px = static_cast<int>(std::ceil(start.reach_m * coarse_px_per_m));
   const ShiftedWindows coarse(start, mixture, rings.coarse, {start.centre_patch, reach_px});
-  AngleFit best;
-  double least = 1e9;
+  std::vector<Candidate> candidates;
+  std::size_t best = 0;
   for (const Place& place : findPlaces(start, coarse, rings.coarse, reach_px)) {
     constexpr int kFineReach_px = 1;
     const Eigen::Vector2d centre_patch = start.centre_patch + place.shift_px.cast<double>() / coarse_px_per_m;
     const int angle = static_cast<int>(place.angle) * rings.fine.shape().angles / rings.coarse.shape().angles;
     const ShiftedWindows fine(start, mixture, rings.fine, {centre_patch, kFineReach_px});
     const Refined refined = refinePlace(fine, rings.fine, angle, kFineReach_px);
-    AngleFit fit = fitThere(start, rings.fine, centre_patch + refined.shift_px.cast<double>() / fine_px_per_m);
-    const double share = leastOf(fit);
-    const double cost = costOf(std::sqrt(share * (refined.residual + kFineOutside * place.outside)), start, fit.centre_patch);
-    if (cost < least) {
-      least = cost;
-      best = std::move(fit);
-    }
+    Candidate candidate{fitThere(start, rings.fine, centre_patch + refined.shift_px.cast<double>() / fine_px_per_m), 0.0};
+    const double residual = std::sqrt(leastOf(candidate.fit) * (refined.residual + kFineOutside * place.outside));
+    candidate.cost = costOf(residual, start, candidate.fit.centre_patch);
+    candidates.push_back(std::move(candidate));
+    best = candidates.back().cost < candidates[best].cost ? candidates.size() - 1 : best;
   }
-  return between(start, rings.fine, std::move(best));
+  std::vector<Candidate> aside = besides(start, rings.fine, candidates[best]);
+  std::move(aside.begin(), aside.end(), std::back_inserter(candidates));
+  return merge(candidates);
 }
 
 }  // namespace oikos::recognition

@@ -28,7 +28,8 @@ struct FitStart {
 
 struct AngleFit {
   Eigen::Vector2d centre_patch = Eigen::Vector2d::Zero();  ///< where the face's middle is
-  /// The share of the picture's variation that no template of this index explains, 0 to 1; AngleRing::bases says what an index means.
+  /// The share of the picture's variation that the template of this index leaves unexplained, 0 to 1, at the place that suits it best of
+  /// those that are nearly as likely; AngleRing::bases says what an index means.
   std::vector<double> unexplained;
 };
 
