@@ -19,6 +19,8 @@ constexpr double kFarAway = 200.0;  // in radii: nearly parallel rays
 constexpr double kTemplateBlur_px = 0.7;
 constexpr double kWeakest = 2e-3;  // of a basis's strongest direction, in energy: what is weaker is noise
 
+constexpr int kShades = 4;  // constant, and the normal's x, y, z
+
 using Images = std::vector<cv::Mat>;  // CV_32FC1 of the window's size
 
 /// The mesh once a material, so that a render tells them apart.
@@ -72,8 +74,8 @@ Eigen::Matrix3d cameraAxes(double tilt_rad, double azimuth_rad) {
 }
 
 /// Mask and shades of each material of the knob, then the mask of what it stands on.
-Images basisImages(const render::View& view, int materials, int shades, const Window& window) {
-  Images images(static_cast<std::size_t>(materials * shades + 1));
+Images basisImages(const render::View& view, int materials, const Window& window) {
+  Images images(static_cast<std::size_t>(materials * kShades + 1));
   for (cv::Mat& image : images) {
     image = cv::Mat::zeros(window.rows, window.columns, CV_32FC1);
   }
@@ -87,9 +89,9 @@ Images basisImages(const render::View& view, int materials, int shades, const Wi
         continue;
       }
       const auto& normal = view.normal_camera.at<cv::Vec3f>(v, u);
-      const auto first = static_cast<std::size_t>(part * shades);
+      const auto first = static_cast<std::size_t>(part * kShades);
       images[first].at<float>(at) += kShare;
-      for (int i = 0; i + 1 < shades; ++i) {
+      for (int i = 0; i + 1 < kShades; ++i) {
         images[first + 1 + static_cast<std::size_t>(i)].at<float>(at) += kShare * normal[i];
       }
     }
@@ -164,7 +166,7 @@ AngleRing::AngleRing(const KnobDescription& knob, const KnobFace& face, double t
     Eigen::Isometry3d T_face_camera = Eigen::Isometry3d::Identity();
     T_face_camera.linear() = cameraAxes(tilt_rad, azimuth_rad);
     T_face_camera.translation() = -distance_m * T_face_camera.linear().col(2);
-    all.push_back(basisImages(render::renderView(scene, rays, {T_face_camera, {}}, config), materials, shape.has_shades ? 4 : 1, window));
+    all.push_back(basisImages(render::renderView(scene, rays, {T_face_camera, {}}, config), materials, window));
     covered = cv::max(covered, 1.0 - all.back().back());
     for (cv::Mat& image : all.back()) {
       cv::GaussianBlur(image, image, cv::Size(5, 5), kTemplateBlur_px, 0.0, cv::BORDER_REPLICATE);

@@ -12,7 +12,6 @@ namespace oikos::recognition {
 struct RingShape {
   int radius_px = 14;           ///< of the knob's face in a template
   int angles = 72;              ///< evenly all around
-  bool has_shades = true;       ///< else each material has one brightness
   float carrier_weight = 0.1F;  ///< how much pixels beside the knob count
 };
 

@@ -16,8 +16,8 @@ namespace oikos::recognition {
 namespace {
 
 constexpr double kTiltStep_rad = 5.0 * base::kRadPerDeg;
-constexpr RingShape kCoarse = {7, 36, true, 0.6F};  // its outline tells where a knob is
-constexpr RingShape kFine = {14, 72, true, 0.1F};
+constexpr RingShape kCoarse = {7, 36, 0.6F};  // its outline tells where a knob is
+constexpr RingShape kFine = {14, 72, 0.1F};
 constexpr double kLeastPitch = 1.5;  // in radii: between the axes of two knobs
 constexpr double kFitReach = 0.6;    // in radii: how far a detection may be off
 
