@@ -2,6 +2,7 @@
 #include "recognition/knobs/state_belief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 

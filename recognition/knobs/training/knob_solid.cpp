@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recognition/knobs/training/knob_solid.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
