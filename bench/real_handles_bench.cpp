@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
@@ -60,9 +61,10 @@ struct Cabinet {
         finder(model, {}) {}
 };
 
-std::vector<Cabinet> makeCabinets(const semantic::Home& home, const fs::path& folder) {
+/// In a deque, as a registration must not be moved.
+std::deque<Cabinet> makeCabinets(const semantic::Home& home, const fs::path& folder) {
   semantic::ModelMaker maker(folder);
-  std::vector<Cabinet> cabinets;
+  std::deque<Cabinet> cabinets;
   for (const semantic::Room& room : home.rooms) {
     for (const semantic::LargeObject& object : room.objects) {
       if (object.articulation && !object.articulation->handles.empty()) {
@@ -104,7 +106,7 @@ void printEstimate(int frame, const std::string& id, const registration::JointEs
 }
 
 /// All handles of one frame, and the picture of it: orange as the home has them, green as they were found.
-cv::Mat findInFrame(int frame, const registration::DepthView& view, const cv::Mat& color, std::vector<Cabinet>& cabinets, bool is_verbose) {
+cv::Mat findInFrame(int frame, const registration::DepthView& view, const cv::Mat& color, std::deque<Cabinet>& cabinets, bool is_verbose) {
   cv::Mat picture = color.clone();
   const registration::Scan scan = registration::makeScan(view.depth_m, view.camera, {});
   for (Cabinet& cabinet : cabinets) {
@@ -168,7 +170,7 @@ void run(const Options& options, const fs::path& data) {
   const recording::Trajectory mapped = recording::readTrajectory(maps / "home/map/trajectory.txt");
   const auto recording = recording::openRecording(maps / "mapped");
   const fs::path folder = OIKOS_KITCHEN_HOME;
-  std::vector<Cabinet> cabinets = makeCabinets(semantic::readHome(folder / "home.xml").home, folder);
+  std::deque<Cabinet> cabinets = makeCabinets(semantic::readHome(folder / "home.xml").home, folder);
   std::vector<std::pair<int, cv::Mat>> pictures;
   std::vector<registration::DepthView> views;
   for (int i = 0; i < kMapped; i += options.stride) {

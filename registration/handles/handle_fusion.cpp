@@ -22,18 +22,18 @@ constexpr int kRounds = 20;
 /// An image's estimate about a common pose.
 struct Difference {
   Vector6d xi = Vector6d::Zero();
-  Matrix6d information = Matrix6d::Zero();
+  Matrix6d covariance = Matrix6d::Zero();   ///< this image's own
+  Matrix6d information = Matrix6d::Zero();  ///< with what the images differ by beyond what they say
   double weight = 1.0;
 };
 
 /// What is this image's alone; at least a tenth of the whole.
-Matrix6d ownInformation(const HandleEstimate& estimate) {
+Matrix6d ownCovariance(const HandleEstimate& estimate) {
   Matrix6d own = estimate.covariance;
   const Vector6d whole = estimate.covariance.diagonal();
   own.diagonal() = (whole - estimate.shared.diagonal()).cwiseMax(0.1 * whole);
   const Vector6d scale = (own.diagonal().array() / whole.array()).sqrt();  // so that it stays a covariance
-  own = scale.asDiagonal() * estimate.covariance * scale.asDiagonal();
-  return own.ldlt().solve(Matrix6d::Identity());
+  return scale.asDiagonal() * estimate.covariance * scale.asDiagonal();
 }
 
 double median(std::vector<double> values) {
@@ -67,15 +67,34 @@ struct Fused {
   Matrix6d covariance = Matrix6d::Zero();  ///< without what is shared
 };
 
+/// By how much more the images differ than they say, in each direction, by the median of their absolute deviations.
+Vector6d excessOf(const std::vector<Difference>& differences, const Vector6d& middle) {
+  Vector6d excess;
+  for (int i = 0; i < 6; ++i) {
+    std::vector<double> deviations;
+    std::vector<double> variances;
+    for (const Difference& difference : differences) {
+      deviations.push_back(std::abs(difference.xi[i] - middle[i]));
+      variances.push_back(difference.covariance(i, i));
+    }
+    const double sigma = 1.4826 * median(std::move(deviations));
+    excess[i] = std::max(0.0, sigma * sigma - median(std::move(variances)));
+  }
+  return excess;
+}
+
 Fused fuseDifferences(std::vector<Difference>& differences, const HandleFusionConfig& config) {
   Fused fused{medians(differences), Matrix6d::Zero()};
+  const Vector6d excess = excessOf(differences, fused.xi);
+  for (Difference& difference : differences) {
+    difference.information = (difference.covariance + Matrix6d(excess.asDiagonal())).ldlt().solve(Matrix6d::Identity());
+  }
   for (int round = 0; round < kRounds; ++round) {
     Matrix6d H = Matrix6d::Zero();
     Vector6d g = Vector6d::Zero();
     for (Difference& difference : differences) {
       const Vector6d off = difference.xi - fused.xi;
-      const double distance_sq = off.dot(difference.information * off);
-      difference.weight = (config.freedom + 6.0) / (config.freedom + distance_sq);
+      difference.weight = (config.freedom + 6.0) / (config.freedom + off.dot(difference.information * off));
       H += difference.weight * difference.information;
       g += difference.weight * difference.information * difference.xi;
     }
@@ -128,7 +147,8 @@ FusedHandle HandleFusion::result() const {
   std::vector<Difference> differences;
   std::vector<double> lengths_m;
   for (const HandleEstimate* estimate : seen) {
-    differences.push_back({geometry::logSe3(T_part_common.inverse() * estimate->T_part_handle), ownInformation(*estimate), 1.0});
+    differences.push_back(
+        {geometry::logSe3(T_part_common.inverse() * estimate->T_part_handle), ownCovariance(*estimate), Matrix6d::Zero(), 1.0});
     lengths_m.push_back(estimate->length_m);
   }
   const Fused fused = fuseDifferences(differences, config_);
@@ -138,17 +158,14 @@ FusedHandle HandleFusion::result() const {
   Vector6d shared = Vector6d::Zero();
   double squares_m = 0.0;
   double squares_rad = 0.0;
-  double squares = 0.0;
   double weights = 0.0;
   bool is_found = false;
-  const double agreeing = (config_.freedom + 6.0) / config_.freedom;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Vector6d off = differences[i].xi - fused.xi;
     shared += differences[i].weight * seen[i]->shared.diagonal();
     weights += differences[i].weight;
-    squares += differences[i].weight * off.dot(differences[i].information * off) / 6.0;
     is_found |= seen[i]->status == HandleStatus::kFound;
-    if (differences[i].weight < config_.outlier * agreeing) {
+    if (differences[i].weight < config_.outlier) {
       ++result.outliers;
       continue;
     }
@@ -161,7 +178,7 @@ FusedHandle HandleFusion::result() const {
   result.status = is_found ? HandleStatus::kFound : HandleStatus::kPartly;
   const double images = static_cast<double>(seen.size());
   const double repeating = 1.0 + config_.repeated * (images - 1.0);  // images that repeat each other count for fewer
-  result.covariance = std::max(1.0, squares / weights) * repeating * fused.covariance;
+  result.covariance = repeating * fused.covariance;
   result.covariance.diagonal() += shared / weights;
   return result;
 }

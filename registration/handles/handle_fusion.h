@@ -14,7 +14,7 @@ namespace oikos::registration {
 struct HandleFusionConfig {
   double freedom = 4.0;   ///< of Student's distribution: the smaller, the less an image that differs counts
   double repeated = 0.1;  ///< share of what an image says that the others repeat: their registration, the same noise
-  double outlier = 0.3;   ///< images that weigh less than this beside one that agrees are counted as outliers
+  double outlier = 0.3;   ///< images that weigh less than this, beside one that is off by its deviations, are counted as outliers
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -38,7 +38,8 @@ struct FusedHandle {
 };
 
 /// One handle over the images of a recording, on its part, which may move meanwhile: the images' estimates weighted with their covariances,
-/// those far from the rest less (Student's t by iterated weights; Lange, Little & Taylor 1989, doi:10.2307/2290063). Not thread-safe.
+/// those far from the rest less, and none more than
+/// they agree (Student's t by iterated weights; Lange, Little & Taylor 1989, doi:10.2307/2290063). Not thread-safe.
 class HandleFusion {
  public:
   /// Throws ContractViolation if `config` is not valid.
