@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Handles of real base cabinets: frames 0-299 of `kitchen` are mapped, homes/kitchen-real stands in that map, and in each sixth of them the
 // handles of its cabinets are found and fused. There is no truth: what is told is how far frames agree.
-//   real_handles_bench [--pictures FOLDER] [--maps FOLDER] [--stride N] [--verbose]
+//   real_handles_bench [--pictures FOLDER] [--maps FOLDER] [--stride N] [--as-believed] [--verbose]
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -40,6 +40,7 @@ struct Options {
   fs::path maps;  ///< empty: mapped into a temporary folder
   int stride = 6;
   bool is_verbose = false;
+  bool as_believed = false;  ///< doors where the home has them, not where each frame registers them
 };
 
 /// One cabinet with what is found of its handle.
@@ -59,6 +60,10 @@ struct Cabinet {
         believed{object.T_map_object.toIsometry(), semantic::jointValues(object)},
         registration(model, {}),
         finder(model, {}) {}
+
+  [[nodiscard]] Eigen::Isometry3d T_map_believed(int part) const {
+    return believed.T_map_model * model::Kinematics(model).solve(believed.joint_values)[static_cast<std::size_t>(part)];
+  }
 };
 
 /// In a deque, as a registration must not be moved.
@@ -98,15 +103,16 @@ void drawHandle(const Eigen::Isometry3d& T_map_handle, double length_m, const re
 void printEstimate(int frame, const std::string& id, const registration::JointEstimate& door, const registration::HandleEstimate& handle,
                    const model::ModelHandle& believed) {
   const Eigen::Vector3d off_m = (believed.T_part_handle.inverse() * handle.T_part_handle).translation();
-  std::printf("%3d %s door %s %.1f deg, handle %s off %5.1f %5.1f %5.1f mm (sigma %.1f %.1f %.1f), %.0f mm long, gain %.0f, points %d\n", frame,
-              id.c_str(), std::string(base::toString(door.status)).c_str(), door.value * 57.29578,
+  std::printf("%3d %s door %s %.1f deg, handle %s off %5.1f %5.1f %5.1f mm (sigma %.1f %.1f %.1f), %.0f mm long, gain %.0f, points %d\n",
+              frame, id.c_str(), std::string(base::toString(door.status)).c_str(), door.value * 57.29578,
               std::string(base::toString(handle.status)).c_str(), 1000.0 * off_m.x(), 1000.0 * off_m.y(), 1000.0 * off_m.z(),
               1000.0 * std::sqrt(handle.covariance(0, 0)), 1000.0 * std::sqrt(handle.covariance(1, 1)),
               1000.0 * std::sqrt(handle.covariance(2, 2)), 1000.0 * handle.length_m, handle.gain, handle.points);
 }
 
 /// All handles of one frame, and the picture of it: orange as the home has them, green as they were found.
-cv::Mat findInFrame(int frame, const registration::DepthView& view, const cv::Mat& color, std::deque<Cabinet>& cabinets, bool is_verbose) {
+cv::Mat findInFrame(int frame, const registration::DepthView& view, const cv::Mat& color, std::deque<Cabinet>& cabinets,
+                    const Options& options) {
   cv::Mat picture = color.clone();
   const registration::Scan scan = registration::makeScan(view.depth_m, view.camera, {});
   for (Cabinet& cabinet : cabinets) {
@@ -117,18 +123,20 @@ cv::Mat findInFrame(int frame, const registration::DepthView& view, const cv::Ma
         continue;
       }
       const int part = cabinet.model.joints[static_cast<std::size_t>(door.joint)].child;
-      for (registration::HandleEstimate& handle : cabinet.finder.find(view, part, door.T_map_part)) {
+      const Eigen::Isometry3d T_map_part = options.as_believed ? cabinet.T_map_believed(part) : door.T_map_part;
+      for (registration::HandleEstimate& handle : cabinet.finder.find(view, part, T_map_part)) {
         const model::ModelHandle& believed = cabinet.model.handles[static_cast<std::size_t>(handle.handle)];
         ++cabinet.statuses[std::string(base::toString(handle.status))];
-        if (is_verbose) {
+        if (options.is_verbose) {
           printEstimate(frame, cabinet.id, door, handle, believed);
         }
-        drawHandle(door.T_map_part * believed.T_part_handle, believed.length_m.value_or(0.1), view, {0, 160, 255}, 1, picture);
+        drawHandle(T_map_part * believed.T_part_handle, believed.length_m.value_or(0.1), view, {0, 160, 255}, 1, picture);
         if (handle.isSeen()) {
           drawHandle(handle.T_map_handle, handle.length_m, view, {0, 255, 0}, 2, picture);
         }
         cabinet.on_part.add(handle);
         handle.T_part_handle = handle.T_map_handle;
+        handle.evidence.T_part_believed = T_map_part * handle.evidence.T_part_believed;
         cabinet.in_map.add(handle);
       }
     }
@@ -139,13 +147,13 @@ cv::Mat findInFrame(int frame, const registration::DepthView& view, const cv::Ma
 void report(const Cabinet& cabinet) {
   const registration::FusedHandle in_map = cabinet.in_map.result();
   const registration::FusedHandle on_part = cabinet.on_part.result();
-  const Eigen::Isometry3d T_map_part = cabinet.believed.T_map_model * model::Kinematics(cabinet.model).solve(cabinet.believed.joint_values)[1];
-  const Eigen::Isometry3d T_map_believed = T_map_part * cabinet.model.handles.front().T_part_handle;
+  const Eigen::Isometry3d T_map_believed = cabinet.T_map_believed(1) * cabinet.model.handles.front().T_part_handle;
   const Eigen::Vector3d off_m = (T_map_believed.inverse() * in_map.T_part_handle).translation();
   const Eigen::Vector3d sigma_m = in_map.covariance.diagonal().head<3>().cwiseSqrt();
-  std::printf("| `%s` | %s | %d of %d | %d | %.1f, %.2f | %.1f, %.2f | %.0f, %.0f, %.0f | %.1f, %.1f, %.1f | %.0f |", cabinet.id.c_str(),
-              std::string(base::toString(in_map.status)).c_str(), in_map.seen, in_map.images, in_map.outliers, 1000.0 * in_map.spread_m,
-              in_map.spread_deg, 1000.0 * on_part.spread_m, on_part.spread_deg, 1000.0 * off_m.x(), 1000.0 * off_m.y(), 1000.0 * off_m.z(),
+  std::printf("| `%s` | %s | %s, %.0f | %d of %d | %d | %.1f, %.2f | %.1f, %.2f | %.0f, %.0f, %.0f | %.1f, %.1f, %.1f | %.0f |",
+              cabinet.id.c_str(), std::string(base::toString(in_map.status)).c_str(), in_map.is_summed ? "all together" : "single images",
+              in_map.gain, in_map.seen, in_map.images, in_map.outliers, 1000.0 * in_map.spread_m, in_map.spread_deg,
+              1000.0 * on_part.spread_m, on_part.spread_deg, 1000.0 * off_m.x(), 1000.0 * off_m.y(), 1000.0 * off_m.z(),
               1000.0 * sigma_m.x(), 1000.0 * sigma_m.y(), 1000.0 * sigma_m.z(), 1000.0 * in_map.length_m);
   for (const auto& [status, count] : cabinet.statuses) {
     std::printf(" %s %d", status.c_str(), count);
@@ -176,11 +184,13 @@ void run(const Options& options, const fs::path& data) {
   for (int i = 0; i < kMapped; i += options.stride) {
     const camera::RgbdFrame images = recording->read(i, recording::Channels::kColor);
     views.push_back({images.depth_m, recording->camera(), poseAt(mapped, images.stamp_ns)});
-    pictures.emplace_back(i, findInFrame(i, views.back(), images.color, cabinets, options.is_verbose));
+    pictures.emplace_back(i, findInFrame(i, views.back(), images.color, cabinets, options));
   }
   std::printf(
-      "| cabinet | handle | seen | outliers | spread in map mm, deg | on the registered door mm, deg | from where the home has it: out, across, "
-      "along mm | sigma mm | length mm | single frames |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "| cabinet | handle | by, gain | seen | outliers | spread in map mm, deg | on the registered door mm, deg | from where the home has "
+      "it: out, "
+      "across, "
+      "along mm | sigma mm | length mm | single frames |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Cabinet& cabinet : cabinets) {
     report(cabinet);
   }
@@ -188,7 +198,7 @@ void run(const Options& options, const fs::path& data) {
     fs::create_directories(options.pictures);
     for (const Cabinet& cabinet : cabinets) {
       const registration::FusedHandle fused = cabinet.in_map.result();
-      if (fused.seen > 0) {
+      if (fused.status == registration::HandleStatus::kFound || fused.status == registration::HandleStatus::kPartly) {
         drawHandle(fused.T_part_handle, fused.length_m, views[i], {255, 255, 0}, 1, pictures[i].second);
       }
     }
@@ -205,6 +215,7 @@ int main(int argc, char** argv) {
                  "folder for each frame with its handles: orange as the home has them, green as found in it, cyan as fused");
   app.add_option("--maps", options.maps, "keep the map there, and take it from there");
   app.add_option("--stride", options.stride, "each so many-th frame")->check(CLI::PositiveNumber);
+  app.add_flag("--as-believed", options.as_believed, "doors stand where the home has them, not where each frame registers them");
   app.add_flag("--verbose", options.is_verbose, "a line for each handle in each frame");
   CLI11_PARSE(app, argc, argv);
   const char* data = std::getenv("OIKOS_DATA");

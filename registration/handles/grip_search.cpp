@@ -55,7 +55,7 @@ class Grid {
     }
   }
 
-  [[nodiscard]] GridPlace at(double along_m, double across_m, double blur_m) const {
+  [[nodiscard]] PlaceEvidence evidenceAt(double along_m, double across_m, double blur_m) const {
     double covers = 0.0;
     double squares = 0.0;
     double products = 0.0;
@@ -69,10 +69,15 @@ class Grid {
     const double n = static_cast<double>(readings_.size()) + front_prior_;
     const double seen = squares - covers * covers / n;
     const double standing_out = products - covers * sum_ / n;
+    return {along_m, across_m, weight_ * standing_out, weight_ * std::max(0.0, seen)};
+  }
+
+  [[nodiscard]] GridPlace at(double along_m, double across_m, double blur_m) const {
+    const PlaceEvidence evidence = evidenceAt(along_m, across_m, blur_m);
     GridPlace place{along_m, across_m, blur_m, 0.0, 0.0};
-    if (seen > 1e-9 && standing_out > 0.0) {
-      const double height_m = std::min(standing_out / seen, config_.max_reach_m);
-      place.gain = weight_ * height_m * (standing_out - 0.5 * height_m * seen);
+    if (evidence.seen > 1e-9 * weight_ && evidence.standing_out > 0.0) {
+      const double height_m = std::min(evidence.standing_out / evidence.seen, config_.max_reach_m);
+      place.gain = height_m * (evidence.standing_out - 0.5 * height_m * evidence.seen);
     }
     place.score = place.gain - 0.5 * (along_m * along_m + across_m * across_m) / (config_.place_sigma_m * config_.place_sigma_m);
     return place;
@@ -87,10 +92,11 @@ class Grid {
   double sum_ = 0.0;
 };
 
+constexpr double kStepAlong_m = 0.006;
+constexpr double kStepAcross_m = 0.004;
+
 /// Best places of the grid, apart from each other.
 std::vector<GridPlace> bestOfGrid(const GripReadings& grip, const Bar& believed, const GripConfig& config) {
-  constexpr double kStepAlong_m = 0.006;
-  constexpr double kStepAcross_m = 0.004;
   const Grid grid(grip, believed, config);
   const int along = static_cast<int>(std::floor(config.search_m / kStepAlong_m));
   const int across = static_cast<int>(std::floor(config.search_m / kStepAcross_m));
@@ -354,6 +360,20 @@ std::vector<GripPlace> searchGrip(const GripBelief& belief, const GripReadings& 
     }
   }
   std::stable_sort(places.begin(), places.end(), [](const GripPlace& a, const GripPlace& b) { return a.score > b.score; });
+  return places;
+}
+
+std::vector<PlaceEvidence> evidenceOf(const GripBelief& belief, const GripReadings& readings, const GripConfig& config) {
+  const Bar believed = believedBar(belief);
+  const Grid grid(readings, believed, config);
+  const int along = static_cast<int>(std::floor(config.search_m / kStepAlong_m));
+  const int across = static_cast<int>(std::floor(config.search_m / kStepAcross_m));
+  std::vector<PlaceEvidence> places;
+  for (int i = -along; i <= along; ++i) {
+    for (int j = -across; j <= across; ++j) {
+      places.push_back(grid.evidenceAt(i * kStepAlong_m, j * kStepAcross_m, config.wide_blur_px * readings.pixel_m));
+    }
+  }
   return places;
 }
 

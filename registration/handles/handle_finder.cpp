@@ -277,6 +277,10 @@ void HandleFinder::findOn(const FrontFace& face, const DepthView& view, const Ei
       estimate.status = reasonFor(readings[i], front, config_.grip);
     }
     estimate.T_map_handle = view.T_map_camera * on.T_camera_handle * T_handle_found;
+    estimate.evidence.T_part_believed = T_map_part.inverse() * view.T_map_camera * on.T_camera_handle;
+    if (estimate.isSeen() || estimate.status == HandleStatus::kNotSeen) {
+      estimate.evidence.places = evidenceOf(on.belief, readings[i], config_.grip);
+    }
     estimate.T_part_handle = T_map_part.inverse() * estimate.T_map_handle;
   }
 }

@@ -15,6 +15,7 @@
 #include "registration/handles/front_face.h"
 #include "registration/handles/front_plane.h"
 #include "registration/handles/grip_config.h"
+#include "registration/handles/grip_evidence.h"
 #include "registration/handles/grip_readings.h"
 
 namespace oikos::registration {
@@ -65,9 +66,10 @@ struct HandleEstimate {
       geometry::Matrix6d::Zero();  ///< the part of it that is the same in every image: what is the prior's (diagonal)
   double length_m = 0.0;           ///< along z of the handle: of a bar; a knob's diameter. Where it is not seen: the prior's
   double length_sigma_m = 0.0;
-  double gain = 0.0;     ///< log likelihood of the handle over that of a bare front
-  int points = 0;        ///< readings that show it
-  int front_points = 0;  ///< readings of its front, of those that were looked at
+  double gain = 0.0;      ///< log likelihood of the handle over that of a bare front
+  int points = 0;         ///< readings that show it
+  GripEvidence evidence;  ///< for the fusion of many images
+  int front_points = 0;   ///< readings of its front, of those that were looked at
 
   [[nodiscard]] bool isSeen() const { return status == HandleStatus::kFound || status == HandleStatus::kPartly; }
 };

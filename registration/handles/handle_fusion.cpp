@@ -3,9 +3,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
@@ -110,6 +112,11 @@ std::vector<std::string> HandleFusionConfig::validate() const {
   return base::ConfigRules()
       .greater("freedom", freedom, 0.0)
       .between("repeated", repeated, 0.0, 1.0)
+      .greater("min_gain", min_gain, 0.0)
+      .between("min_seen", min_seen, 0.0, 1.0)
+      .greater("most_apart_m", most_apart_m, 0.0)
+      .greater("place_sigma_m", place_sigma_m, 0.0)
+      .greater("max_height_m", max_height_m, 0.0)
       .between("outlier", outlier, 0.0, 1.0)
       .messages();
 }
@@ -134,15 +141,61 @@ FusedHandle HandleFusion::result() const {
   result.covariance = estimates_.front().covariance;
   result.length_m = estimates_.front().length_m;
   std::vector<const HandleEstimate*> seen;
+  std::vector<const HandleEstimate*> looked;
   for (const HandleEstimate& estimate : estimates_) {
     if (estimate.isSeen()) {
       seen.push_back(&estimate);
     }
+    if (!estimate.evidence.places.empty()) {
+      looked.push_back(&estimate);
+    }
   }
   result.seen = static_cast<int>(seen.size());
-  if (seen.empty()) {
-    return result;
+  if (static_cast<double>(seen.size()) < config_.min_seen * static_cast<double>(looked.size())) {
+    sumUp(looked, result);
+  } else if (!seen.empty()) {
+    fuseSeen(seen, result);
   }
+  return result;
+}
+
+void HandleFusion::sumUp(const std::vector<const HandleEstimate*>& looked, FusedHandle& result) const {
+  std::array<std::vector<const GripEvidence*>, 2> halves;
+  std::vector<const GripEvidence*> all;
+  const Eigen::Isometry3d T_part_common = looked.front()->evidence.T_part_believed;
+  Vector6d mean = Vector6d::Zero();
+  Vector6d squares = Vector6d::Zero();
+  for (std::size_t i = 0; i < looked.size(); ++i) {
+    all.push_back(&looked[i]->evidence);
+    halves[i % 2].push_back(&looked[i]->evidence);
+    const Vector6d xi = geometry::logSe3(T_part_common.inverse() * looked[i]->evidence.T_part_believed);
+    mean += xi / static_cast<double>(looked.size());
+    squares += xi.cwiseAbs2() / static_cast<double>(looked.size());
+  }
+  const double share = 1.0 / (1.0 + config_.repeated * (static_cast<double>(looked.size()) - 1.0));
+  const auto peakOf = [&](const std::vector<const GripEvidence*>& images) {
+    return sumEvidence(images, share, config_.place_sigma_m, config_.max_height_m);
+  };
+  const std::optional<EvidencePeak> peak = peakOf(all);
+  result.T_part_handle = T_part_common * geometry::expSe3(mean);
+  result.covariance = looked.front()->covariance;
+  result.status = HandleStatus::kNotSeen;
+  result.gain = peak->gain;
+  result.is_summed = true;
+  if (!halves[1].empty()) {
+    result.spread_m = 0.5 * (peakOf(halves[0])->place_m - peakOf(halves[1])->place_m).norm();
+  }
+  if (peak->gain < config_.min_gain || result.spread_m > config_.most_apart_m) {
+    return;
+  }
+  result.status = HandleStatus::kFound;
+  result.T_part_handle.translate(Eigen::Vector3d(0.0, peak->place_m.x(), peak->place_m.y()));
+  const Vector6d wander = (squares - mean.cwiseAbs2()).cwiseMax(0.0);  // of the registered part
+  result.covariance.block<2, 2>(1, 1) = peak->covariance;
+  result.covariance.diagonal() += wander / static_cast<double>(looked.size());
+}
+
+void HandleFusion::fuseSeen(const std::vector<const HandleEstimate*>& seen, FusedHandle& result) const {
   const Eigen::Isometry3d T_part_common = seen.front()->T_part_handle;
   std::vector<Difference> differences;
   std::vector<double> lengths_m;
@@ -180,7 +233,6 @@ FusedHandle HandleFusion::result() const {
   const double repeating = 1.0 + config_.repeated * (images - 1.0);  // images that repeat each other count for fewer
   result.covariance = repeating * fused.covariance;
   result.covariance.diagonal() += shared / weights;
-  return result;
 }
 
 }  // namespace oikos::registration
