@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles of real base cabinets: frames 0-299 of `kitchen` are mapped, homes/kitchen-real stands in that map, and in each sixth of them the
+// Handles of real base cabinets: frames 0-299 of `kitchen` are mapped, the cabinets of homes/kitchen-real/doors.xml stand in that map, and in each sixth of them the
 // handles of its cabinets are found and fused. There is no truth: what is told is how far frames agree.
 //   real_handles_bench [--pictures FOLDER] [--maps FOLDER] [--stride N] [--as-believed] [--verbose]
 #include <CLI/App.hpp>
@@ -178,7 +178,7 @@ void run(const Options& options, const fs::path& data) {
   const recording::Trajectory mapped = recording::readTrajectory(maps / "home/map/trajectory.txt");
   const auto recording = recording::openRecording(maps / "mapped");
   const fs::path folder = OIKOS_KITCHEN_HOME;
-  std::deque<Cabinet> cabinets = makeCabinets(semantic::readHome(folder / "home.xml").home, folder);
+  std::deque<Cabinet> cabinets = makeCabinets(semantic::readHome(folder / "doors.xml").home, folder);
   std::vector<std::pair<int, cv::Mat>> pictures;
   std::vector<registration::DepthView> views;
   for (int i = 0; i < kMapped; i += options.stride) {

@@ -19,8 +19,8 @@ struct GripBelief {
   double half_width_m = 0.0;
 
   [[nodiscard]] double height_m() const { return T_front_handle.translation().x(); }  ///< of the grip's middle before the front
-  /// Of the plane in which the middle of what is seen is that of the grip: a bar's own; of a knob most is seen of its end.
-  [[nodiscard]] double seenHeight_m() const { return is_knob ? 1.8 * height_m() : height_m(); }
+  /// Of the plane in which the middle of what is seen is that of the grip: a bar's own; of a knob its end is seen, and part of its side.
+  [[nodiscard]] double seenHeight_m() const { return is_knob ? 1.5 * height_m() : height_m(); }
   [[nodiscard]] Eigen::Isometry3d T_handle_seen() const {
     return Eigen::Isometry3d(Eigen::Translation3d(seenHeight_m() - height_m(), 0.0, 0.0));
   }

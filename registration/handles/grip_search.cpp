@@ -140,11 +140,27 @@ BarPrior priorOf(const GripBelief& belief, double pixel_m, const GripConfig& con
   return {bar.vector(), sigmas.cwiseAbs2().cwiseInverse()};
 }
 
+/// What tells where the bar ends, and how high its front is there.
+std::vector<GripReading> readingsAround(const Bar& bar, const GripReadings& grip) {
+  constexpr double kRim_m = 0.025;
+  std::vector<GripReading> around;
+  for (const GripReading& reading : grip.readings) {
+    if (std::abs(reading.along_m - bar.along_m) < bar.half_length_m + kRim_m + bar.blur_m &&
+        std::abs(reading.across_m - bar.across_m) < bar.half_width_m + kRim_m + bar.blur_m) {
+      around.push_back(reading);
+    }
+  }
+  return around;
+}
+
 /// Gauss-Newton from one place, with steps that are halved until they help.
 class BarFit {
  public:
-  BarFit(const GripBelief& belief, const GripReadings& grip, const GripConfig& config)
-      : grip_(grip), prior_(priorOf(belief, grip.pixel_m, config)), is_square_(belief.is_knob) {}
+  BarFit(const GripBelief& belief, const Bar& start, const GripReadings& grip, const GripConfig& config)
+      : grip_(grip),
+        readings_near_(readingsAround(start, grip)),
+        prior_(priorOf(belief, grip.pixel_m, config)),
+        is_square_(belief.is_knob) {}
 
   [[nodiscard]] GripPlace refine(const Bar& start) {
     BarVector bar = start.vector();
@@ -205,7 +221,7 @@ class BarFit {
     Sums sums;
     const Bar bar = Bar::from(vector);
     const double weight = grip_.share / (grip_.sigma_m * grip_.sigma_m);
-    for (const GripReading& reading : grip_.readings) {
+    for (const GripReading& reading : readings_near_) {
       BarReading expected = readBar(bar, reading.along_m, reading.across_m);
       const double residual_m = reading.height_m - expected.height_m;
       const double ratio = residual_m / grip_.sigma_m;
@@ -241,13 +257,14 @@ class BarFit {
 
   [[nodiscard]] double bareCost(double offset_m) const {
     double cost = 0.0;
-    for (const GripReading& reading : grip_.readings) {
+    for (const GripReading& reading : readings_near_) {
       cost += grip_.share * huber((reading.height_m - offset_m) / grip_.sigma_m);
     }
     return cost;
   }
 
   const GripReadings& grip_;
+  std::vector<GripReading> readings_near_;
   BarPrior prior_;
   bool is_square_;
   BarMatrix information_ = BarMatrix::Zero();
@@ -263,7 +280,7 @@ GripPlace refined(const GripBelief& belief, const GridPlace& start, const GripRe
     bar.along_m = start.along_m;
     bar.across_m = start.across_m;
     bar.blur_m = blur_px * readings.pixel_m;
-    BarFit fit(belief, readings, config);
+    BarFit fit(belief, bar, readings, config);
     const GripPlace place = fit.refine(bar);
     if (best.gain <= 0.0 || place.score > best.score) {
       best = place;
