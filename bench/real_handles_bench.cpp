@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles of real base cabinets: frames 0-299 of `kitchen` are mapped, the cabinets of homes/kitchen-real/doors.xml stand in that map, and in each sixth of them the
-// handles of its cabinets are found and fused. There is no truth: what is told is how far frames agree.
+// Handles of real base cabinets: frames 0-299 of `kitchen` are mapped, the cabinets of homes/kitchen-real/doors.xml stand in that map, and
+// in each sixth of them the handles of its cabinets are found and fused. There is no truth: what is told is how far frames agree.
 //   real_handles_bench [--pictures FOLDER] [--maps FOLDER] [--stride N] [--as-believed] [--verbose]
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

@@ -18,7 +18,7 @@
 #include <random>
 
 #include "bench/registration/field_align.h"
-#include "bench/wilson.h"
+#include "core/metrics/share_interval.h"
 #include "registration/align.h"
 #include "tests/registration/furniture_scan.h"
 
@@ -234,7 +234,7 @@ void print(const char* name, const std::vector<Outcome>& outcomes, double ours_m
   const auto count = static_cast<int>(outcomes.size());
   const auto within = static_cast<int>(
       std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.error_cm < 3.0 && o.error_deg < 3.0; }));
-  const auto [low, high] = bench::wilsonInterval(within, count);
+  const auto [low, high] = metrics::wilsonInterval(within, count);
   std::printf("| %-25s | %6.0f | %7.1f | %6.2fx | %.2f | %.2f | %d of %d, %.1f %% (%.1f-%.1f) |\n", name, points, median(ms),
               median(ms) / ours_ms, median(cm), median(deg), within, count, 100.0 * within / count, 100.0 * low, 100.0 * high);
 }
