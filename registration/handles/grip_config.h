@@ -28,7 +28,7 @@ struct GripConfig {
   double correlation_px = 4.0;    ///< nearer readings repeat each other
   double floor_m = 0.001;         ///< deviation that no number of readings takes away
   double noise_floor_m = 0.0005;  ///< of a reading
-  int most_readings = 20000;      ///< that are looked at
+  int most_readings = 6000;       ///< that are looked at
   int min_readings = 6;           ///< of a sharp or blurred grip
   double max_hidden = 0.6;        ///< of the grip's pixels, those that something stands before
   double min_gain = 8.0;          ///< log likelihood of the grip over that of a bare front

@@ -56,6 +56,7 @@ GripReadings readGrip(const GripBelief& belief, const FrontPlane& front, const D
   const PixelArea area = pixelsOf(wide, T_camera_handle, view.camera, config.most_readings);
   grip.share = std::min(1.0, area.step_px * area.step_px / (config.correlation_px * config.correlation_px));
   grip.pixel_m = T_camera_handle.translation().z() / view.camera.fx;
+  grip.spacing_m = area.step_px * grip.pixel_m;
   grip.sigma_m = std::max(config.noise_floor_m, front.sigma_m);
   // nearer to its edge a front is mixed with what lies beside it: the edge of a worktop, the next drawer
   const double margin_m = std::min(kMostMargin_m, config.wide_blur_px * grip.pixel_m);

@@ -40,6 +40,7 @@ struct GripReadings {
   double sigma_m = 0.0;               ///< of a height
   double share = 1.0;                 ///< of a reading's information that counts
   double pixel_m = 0.0;               ///< a pixel's width in the plane of the grip
+  double spacing_m = 0.0;             ///< of the readings there
   bool faces_camera = true;
   double in_view = 0.0;  ///< share of the believed grip that lies in the image
   int shown = 0;         ///< pixels of the believed grip, one in so many; of these

@@ -20,7 +20,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSeenOfBar = 0.785;     // of a round bar's radius, what its visible side stands out in the mean
 constexpr double kHeightSigma_m = 0.01;  // wide: how much of its height a sensor shows is not known
 constexpr int kMostInGrid = 900;         // readings
-constexpr double kLeastBlur_px = 0.5;    // a pixel is not smaller
+constexpr double kLeastBlur = 0.75;      // of the readings' spacing: an edge between two of them could not be moved
+constexpr double kMostHigher_m = 0.015;  // than believed: a hair that stands out by a hand looks much like a bar
 constexpr double kHuber = 2.5;
 constexpr int kRounds = 12;
 
@@ -171,9 +172,10 @@ class BarFit {
       H.diagonal() *= 1.0 + damping;
       const BarVector step = H.ldlt().solve(sums.g);
       BarVector moved = bar + step;
+      moved[3] = std::min(moved[3], prior_.mean[3] + kMostHigher_m);
       moved[5] = std::max(moved[5], 0.003);
       moved[6] = is_square_ ? moved[5] : std::max(moved[6], 0.002);
-      moved[7] = std::max(moved[7], kLeastBlur_px * grip_.pixel_m);
+      moved[7] = std::max(moved[7], kLeastBlur * grip_.spacing_m);
       const Sums there = sumUp(moved);
       if (there.cost < sums.cost) {
         const bool is_done = sums.cost - there.cost < 1e-4;
