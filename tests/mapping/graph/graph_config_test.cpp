@@ -21,6 +21,7 @@ TEST(GraphConfig, FrontEnd) {
                                           {"keyframe_parallax", "0", "must be > 0"},
                                           {"neighbourhood", "-1", "must be >= 0"},
                                           {"borrow_gain", "0", "must be > 0"},
+                                          {"frames_a_look", "0", "must be >= 1"},
                                           {"local_keyframes", "0", "must be >= 1"},
                                           {"loop_candidates", "-1", "must be >= 0"},
                                           {"loop_candidates", "0", ""},

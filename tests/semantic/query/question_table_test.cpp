@@ -54,7 +54,8 @@ TEST_P(TalkOfStrangers, IsAnsweredRightOrNotAtAll) {
 }
 
 INSTANTIATE_TEST_SUITE_P(QuestionTables, TalkOfStrangers,
-                         testing::Values(Talk{"talk.json", 150, 150}, Talk{"strangers.json", 100, 98}, Talk{"guests.json", 100, 97}));
+                         testing::Values(Talk{"talk.json", 150, 150}, Talk{"strangers.json", 100, 98}, Talk{"guests.json", 100, 97}),
+                         [](const auto& talk) { return std::filesystem::path(talk.param.file).stem().string(); });
 
 }  // namespace
 }  // namespace oikos::semantic
