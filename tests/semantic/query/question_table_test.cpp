@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <ostream>
 
 #include "tests/support/question_table.h"
 
@@ -38,6 +39,10 @@ struct Talk {
   std::size_t questions;
   std::size_t reached;
 };
+
+void PrintTo(const Talk& talk, std::ostream* os) {  // NOLINT(readability-identifier-naming): GoogleTest looks for this name
+  *os << talk.file;
+}
 
 class TalkOfStrangers : public testing::TestWithParam<Talk> {};
 
