@@ -112,7 +112,7 @@ std::vector<KnobReader::Found> KnobReader::find(const KnobPicture& picture, cons
     std::sort(ordered.begin(), ordered.end());
     one.unexplained = ordered.front();
     one.distinctness = std::log(ordered[ordered.size() / 2] / ordered.front());
-    // A logistic regression on pictures of training panels, rounded.
+    // A logistic regression on simulated panels, rounded; the default threshold was then held against looks of the training.
     one.score = 2.0 * proposal.score - std::log(one.unexplained) + 2.0 * one.distinctness;
     if (one.score < config_.min_score) {
       continue;
