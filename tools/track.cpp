@@ -126,8 +126,8 @@ ExitCode track(const TrackOptions& options, const Session& session) {
 }  // namespace
 
 void addTrackCommand(CLI::App& root) {
-  CLI::App& command =
-      addCommand(root, {"track", "Reads doors and drawers in recorded drives and notes in the home what has changed.", kExamples, true});
+  CLI::App& command = addCommand(
+      root, {"track", "Reads doors, drawers and knobs in recorded drives and notes in the home what has changed.", kExamples, true});
   const auto options = std::make_shared<TrackOptions>();
   declareOptions(command, *options);
   setAction(command, [options](const Session& session) { return track(*options, session); });

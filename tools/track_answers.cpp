@@ -47,6 +47,9 @@ std::string stateText(const semantic::State& state) {
   if (const auto* const joint = std::get_if<semantic::JointValue>(&state)) {
     return valueText(joint->value, joint->type);
   }
+  if (const auto* const knob = std::get_if<semantic::KnobSetting>(&state)) {
+    return "'" + knob->state + "'";
+  }
   const auto& pose = std::get<semantic::FurniturePose>(state).T_map_object;
   return "(" + toFixedText(pose.position_m.x(), 2) + ", " + toFixedText(pose.position_m.y(), 2) + ", " +
          toFixedText(pose.roll_pitch_yaw_rad.z() / base::kRadPerDeg, 1) + " deg)";
@@ -55,9 +58,10 @@ std::string stateText(const semantic::State& state) {
 void printEvent(const tracking::StateEvent& event) {
   const auto* const joint = std::get_if<semantic::JointValue>(&*event.event.after);
   const semantic::JointType type = joint != nullptr ? joint->type : semantic::JointType::kPrismatic;
+  const std::string sigma = event.event.kind == semantic::EventKind::kKnob ? "" : " +- " + valueText(event.sigma, type);
   std::cout << "  " << padded(event.event.subject, 34) << padded(event.word, 7) << "  " << stateText(*event.event.before) << " -> "
-            << stateText(*event.event.after) << " +- " << valueText(event.sigma, type) << "  " << base::toRfc3339(event.event.time_ns)
-            << ", frame " << *event.event.frame << ", sure to " << toFixedText(100.0 * event.event.confidence, 1) << " %\n";
+            << stateText(*event.event.after) << sigma << "  " << base::toRfc3339(event.event.time_ns) << ", frame " << *event.event.frame
+            << ", sure to " << toFixedText(100.0 * event.event.confidence, 1) << " %\n";
 }
 
 /// Every joint in view, with its value at the recording's end.
@@ -75,6 +79,44 @@ void printReadings(const tracking::RecordingStates& states) {
                 << padded(std::to_string(joint.stays.size()), 6) << padded(std::to_string(last.images), 7) << last.found << '\n';
     }
   }
+}
+
+/// Every knob that was read, with its setting at the recording's end.
+void printKnobs(const tracking::RecordingStates& states) {
+  if (states.knobs.empty()) {
+    return;
+  }
+  std::cout << "  knob                              setting     sure to     stays images read\n";
+  for (const tracking::TrackedKnob& knob : states.knobs) {
+    std::cout << "  " << padded(knob.id.value, 34);
+    if (knob.stays.empty()) {
+      std::cout << "cannot be read: " << knob.reason << '\n';
+      continue;
+    }
+    const tracking::KnobStay& last = knob.stays.back();
+    std::cout << padded("'" + knob.states[last.state] + "'", 12) << padded(toFixedText(100.0 * last.probability, 1) + " %", 12)
+              << padded(std::to_string(knob.stays.size()), 6) << padded(std::to_string(last.images), 7) << last.found << '\n';
+  }
+}
+
+Json knobsJson(const tracking::RecordingStates& states) {
+  Json knobs = Json::array();
+  for (const tracking::TrackedKnob& knob : states.knobs) {
+    Json stays = Json::array();
+    for (const tracking::KnobStay& stay : knob.stays) {
+      stays.push_back({{"state", knob.states[stay.state]},
+                       {"probability", stay.probability},
+                       {"frame", stay.first_frame},
+                       {"images", stay.images},
+                       {"found", stay.found}});
+    }
+    Json one = {{"id", knob.id.value}, {"images", knob.images}, {"stays", std::move(stays)}};
+    if (!knob.reason.empty()) {
+      one["reason"] = knob.reason;
+    }
+    knobs.push_back(std::move(one));
+  }
+  return knobs;
 }
 
 Json stayJson(const tracking::JointStay& stay, const tracking::JointReading& joint, std::int64_t start_ns) {
@@ -151,6 +193,7 @@ Json recordingJson(const TrackedRecording& recording) {
     json["events"].push_back(std::move(one));
   }
   json["pieces"] = piecesJson(recording);
+  json["knobs"] = knobsJson(states);
   json["furniture"] = Json::array();
   for (const tracking::FurniturePlace& place : states.furniture) {
     json["furniture"].push_back(furnitureJson(place));
@@ -175,6 +218,7 @@ void printText(const TrackedRecording& recording, bool is_dry) {
   }
   if (is_dry) {
     printReadings(states);
+    printKnobs(states);
   }
   std::cout << "  " << recording.events.size() << (recording.events.size() == 1 ? " event" : " events")
             << (is_dry ? " would be written\n" : "\n");

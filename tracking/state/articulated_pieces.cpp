@@ -10,8 +10,12 @@ namespace oikos::tracking {
 
 namespace {
 
+bool hasStates(const semantic::LargeObject& object) {
+  return object.articulation && !(object.articulation->joints.empty() && object.articulation->knobs.empty());
+}
+
 bool isTracked(const semantic::LargeObject& object) {
-  return object.movability != semantic::Movability::kMovable && object.articulation && !object.articulation->joints.empty();
+  return object.movability != semantic::Movability::kMovable && hasStates(object);
 }
 
 [[noreturn]] void refuse(const semantic::Home& home, const std::string& only) {
@@ -21,13 +25,13 @@ bool isTracked(const semantic::LargeObject& object) {
       if (isTracked(object)) {
         known.push_back(object.id.value);
       } else if (object.id.value == only) {
-        const bool is_movable = object.articulation && !object.articulation->joints.empty();
         throw base::Error(base::ErrorCode::kUsage,
-                          "'" + only + (is_movable ? "' is movable: it may stand anywhere" : "' has no doors or drawers"), "--object");
+                          "'" + only + (hasStates(object) ? "' is movable: it may stand anywhere" : "' has no doors, drawers or knobs"),
+                          "--object");
       }
     }
   }
-  throw base::Error(base::ErrorCode::kUsage, "no furniture '" + only + "' with doors or drawers" + base::didYouMean(only, known),
+  throw base::Error(base::ErrorCode::kUsage, "no furniture '" + only + "' with doors, drawers or knobs" + base::didYouMean(only, known),
                     "--object");
 }
 

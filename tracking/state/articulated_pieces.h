@@ -12,7 +12,7 @@
 
 namespace oikos::tracking {
 
-/// A piece of the home with doors or drawers, as it is believed to stand.
+/// A piece of the home with doors, drawers or knobs, as it is believed to stand.
 struct ArticulatedPiece {
   semantic::ObjectId id;
   semantic::Movability movability = semantic::Movability::kFixed;
@@ -23,8 +23,8 @@ struct ArticulatedPiece {
   Eigen::AlignedBox3d reach_model;  ///< and with its joints anywhere
 };
 
-/// Every fixed or shiftable piece with a joint, in the home's order; of a movable one nobody knows where it stands. `only`: that one alone.
-/// `home_folder` is where model files are. Throws Error: for a model that cannot be made; kUsage if `only` is no such piece.
+/// Every fixed or shiftable piece with a joint or a knob, in the home's order; of a movable one nobody knows where it stands. `only`: that
+/// one alone. `home_folder` is where model files are. Throws Error: for a model that cannot be made; kUsage if `only` is no such piece.
 [[nodiscard]] std::vector<ArticulatedPiece> articulatedPieces(const semantic::Home& home, const std::filesystem::path& home_folder,
                                                               const std::string& only = {});
 

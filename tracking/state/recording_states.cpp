@@ -18,13 +18,14 @@ double secondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-void locate(const recording::Recording& recording, Localiser& localiser, StateReader& reader, int stride,
+void locate(const recording::Recording& recording, Localiser& localiser, StateReader& reader, KnobWatch& knobs, int stride,
             const base::ProgressSink& progress, RecordingStates& states) {
   recording::FrameStream stream(recording, {.stride = stride, .capacity = 4});
   while (const auto frame = stream.next()) {
     const LocatedPose pose = localiser.addUnrefined(*frame);
     states.found += pose.source != PoseSource::kNone ? 1 : 0;
     reader.look(*frame, pose);
+    knobs.look(*frame, pose);
     base::reportProgress(progress, {"locating", stream.statistics().read + stream.statistics().unreadable, stream.statistics().listed});
   }
   states.located = stream.statistics().read;
@@ -56,6 +57,22 @@ void readWanted(const recording::Recording& recording, const std::vector<int>& w
     }
     reader.read(frames);
     base::reportProgress(progress, {"reading doors and drawers", static_cast<int>(begin + frames.size()), static_cast<int>(wanted.size())});
+  }
+}
+
+/// In colour, each in a piece that was registered in the same frame.
+void readKnobs(const recording::Recording& recording, const StateTools& tools, KnobWatch& knobs) {
+  for (std::vector<WantedKnobs> wanted = knobs.wanted(); !wanted.empty(); wanted = knobs.wanted()) {
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const camera::RgbdFrame frame = recording.read(wanted[i].frame, recording::Channels::kColor);
+      refine(frame, tools.localiser, tools.reader);
+      for (const int piece : wanted[i].pieces) {
+        if (const auto standing = tools.reader.standingIn(frame, piece)) {
+          knobs.read(frame, tools.reader.seen(frame.index).T_map_camera, piece, *standing);
+        }
+      }
+      base::reportProgress(tools.progress, {"reading knobs", static_cast<int>(i + 1), static_cast<int>(wanted.size())});
+    }
   }
 }
 
@@ -105,12 +122,15 @@ RecordingStates readStates(const recording::Recording& recording, const StateToo
   states.frames = recording.frameCount();
   const Clock::time_point begin = Clock::now();
   const int stride = strideOf(recording, tools.config.frames.most_hz);
-  locate(recording, tools.localiser, tools.reader, stride, tools.progress, states);
+  KnobWatch knobs(tools.reader.pieces(), recording.camera(), tools.config.knobs, tools.config.frames, tools.threads);
+  locate(recording, tools.localiser, tools.reader, knobs, stride, tools.progress, states);
   states.locating_s = secondsSince(begin);
   const Clock::time_point located = Clock::now();
   for (std::vector<int> wanted = tools.reader.wanted(); !wanted.empty(); wanted = tools.reader.wanted()) {
     readWanted(recording, wanted, tools.localiser, tools.reader, tools.threads, tools.progress);
   }
+  readKnobs(recording, tools, knobs);
+  states.knobs = knobs.conclude();
   states.pieces = tools.reader.conclude();
   for (const PieceReading& piece : states.pieces) {
     states.registrations += piece.images;

@@ -9,6 +9,7 @@
 #include "registration/articulated/joint_fusion.h"
 #include "registration/scan.h"
 #include "tracking/furniture/moved_furniture.h"
+#include "tracking/state/knob_track_config.h"
 
 namespace oikos::tracking {
 
@@ -93,6 +94,7 @@ struct StateConfig {
   registration::JointFusionConfig fusion;
   ChangeTestConfig change;
   MovedFurnitureConfig furniture;  ///< of shiftable pieces
+  KnobTrackConfig knobs;
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -103,6 +105,7 @@ struct StateConfig {
     visitor("fusion", fusion);
     visitor("change", change);
     visitor("furniture", furniture);
+    visitor("knobs", knobs);
   }
   [[nodiscard]] std::vector<std::string> validate() const { return {}; }
 };

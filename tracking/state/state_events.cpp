@@ -6,23 +6,32 @@
 
 #include "core/base/degrees.h"
 #include "tracking/state/joint_changes.h"
+#include "tracking/state/knob_events.h"
 
 namespace oikos::tracking {
 
 namespace {
 
-const semantic::Joint* findJoint(const semantic::Home& home, const semantic::ObjectId& object, const semantic::JointId& id) {
+const semantic::LargeObject* findObject(const semantic::Home& home, const semantic::ObjectId& id) {
   for (const semantic::Room& room : home.rooms) {
-    for (const semantic::LargeObject& one : room.objects) {
-      if (one.id != object || !one.articulation) {
-        continue;
-      }
-      const auto& joints = one.articulation->joints;
-      const auto found = std::find_if(joints.begin(), joints.end(), [&](const semantic::Joint& joint) { return joint.id == id; });
-      return found == joints.end() ? nullptr : &*found;
+    const auto found =
+        std::find_if(room.objects.begin(), room.objects.end(), [&](const semantic::LargeObject& object) { return object.id == id; });
+    if (found != room.objects.end()) {
+      return &static_cast<const semantic::LargeObject&>(*found);
     }
   }
   return nullptr;
+}
+
+template <class Item, class ItemId>
+const Item* findById(const std::vector<Item>& items, const ItemId& id) {
+  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.id == id; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+const semantic::Articulation* findArticulation(const semantic::Home& home, const semantic::ObjectId& id) {
+  const semantic::LargeObject* const object = findObject(home, id);
+  return object != nullptr && object->articulation ? &*object->articulation : nullptr;
 }
 
 StateEvent eventOf(const JointChange& change, const semantic::ObjectId& object, const semantic::Joint& joint, const EventSource& source) {
@@ -38,15 +47,17 @@ StateEvent eventOf(const JointChange& change, const semantic::ObjectId& object, 
   return {event, object, std::string(base::toString(change.kind)), change.sigma, change.evidence_frame, change.crop};
 }
 
-const semantic::LargeObject* findObject(const semantic::Home& home, const semantic::ObjectId& id) {
-  for (const semantic::Room& room : home.rooms) {
-    const auto found =
-        std::find_if(room.objects.begin(), room.objects.end(), [&](const semantic::LargeObject& object) { return object.id == id; });
-    if (found != room.objects.end()) {
-      return &static_cast<const semantic::LargeObject&>(*found);
-    }
-  }
-  return nullptr;
+StateEvent eventOf(const KnobTurn& turn, const TrackedKnob& knob, const EventSource& source) {
+  semantic::Event event;
+  event.time_ns = source.start_ns + turn.stay.first_ns;
+  event.recording = source.recording;
+  event.frame = turn.stay.first_frame;
+  event.subject = knob.id.value;
+  event.kind = semantic::EventKind::kKnob;
+  event.before = semantic::KnobSetting{turn.before};
+  event.after = semantic::KnobSetting{turn.after};
+  event.confidence = std::clamp(turn.stay.probability, 0.0, 1.0);
+  return {event, knob.piece, "turned", 0.0, turn.stay.best_frame, turn.stay.crop};
 }
 
 /// Nothing: it stands where it is believed to.
@@ -75,13 +86,23 @@ std::vector<StateEvent> stateEvents(const RecordingStates& states, const semanti
                                     const StateConfig& config) {
   std::vector<StateEvent> events;
   for (const PieceReading& piece : states.pieces) {
+    const semantic::Articulation* const articulation = findArticulation(believed, piece.id);
     for (const JointReading& reading : piece.joints) {
-      const semantic::Joint* const joint = findJoint(believed, piece.id, reading.id);
+      const semantic::Joint* const joint = articulation != nullptr ? findById(articulation->joints, reading.id) : nullptr;
       if (joint == nullptr || joint->type != reading.type) {
         continue;
       }
       for (const JointChange& change : findChanges(reading.stays, *joint, config.change)) {
         events.push_back(eventOf(change, piece.id, *joint, source));
+      }
+    }
+  }
+  for (const TrackedKnob& tracked : states.knobs) {
+    const semantic::Articulation* const articulation = findArticulation(believed, tracked.piece);
+    const semantic::Knob* const knob = articulation != nullptr ? findById(articulation->knobs, tracked.id) : nullptr;
+    if (knob != nullptr) {
+      for (const KnobTurn& turn : findTurns(tracked, knob->current, config.knobs.test)) {
+        events.push_back(eventOf(turn, tracked, source));
       }
     }
   }

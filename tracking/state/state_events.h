@@ -17,8 +17,8 @@ namespace oikos::tracking {
 struct StateEvent {
   semantic::Event event;  ///< without `evidence`
   semantic::ObjectId object;
-  std::string word;             ///< opened, closed, moved
-  double sigma = 0.0;           ///< of what stands in `after`: rad of a hinge, else m
+  std::string word;             ///< opened, closed, moved, turned
+  double sigma = 0.0;           ///< of what stands in `after`: rad of a hinge, else m; of a knob: 0
   int evidence_frame = 0;       ///< the picture that shows it best,
   registration::PixelBox crop;  ///< and where; empty: all of it
 };

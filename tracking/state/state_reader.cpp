@@ -26,6 +26,7 @@ using registration::JointStatus;
 struct Shot {
   int index = 0;  ///< of the frames that were looked at
   registration::BaseStatus base = registration::BaseStatus::kNotInView;
+  registration::Standing standing;
   std::vector<registration::JointEstimate> joints;
 };
 
@@ -273,7 +274,19 @@ void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const re
   registration::ArticulatedResult result = track.registration->run(scan, frame.T_map_camera, of.believed, context);
   const int index = static_cast<int>(&frame - frames_.data());
   const auto after = std::find_if(track.shots.begin(), track.shots.end(), [&](const Shot& shot) { return shot.index > index; });
-  track.shots.insert(after, {index, result.status, std::move(result.joints)});
+  track.shots.insert(after, {index, result.status, {result.T_map_model, std::move(result.joint_values)}, std::move(result.joints)});
+}
+
+std::optional<registration::Standing> StateReader::standingIn(const camera::RgbdFrame& frame, int piece) {
+  const SeenFrame& of = seen(frame.index);
+  const int index = static_cast<int>(&of - frames_.data());
+  const std::vector<Shot>& shots = tracks_[static_cast<std::size_t>(piece)]->shots;
+  const auto find = [&] { return std::find_if(shots.begin(), shots.end(), [&](const Shot& shot) { return shot.index == index; }); };
+  if (find() == shots.end()) {
+    registerIn(static_cast<std::size_t>(piece), of, registration::makeScan(frame.depth_m, camera_, config_.scan));
+  }
+  const auto shot = find();
+  return shot->base == registration::BaseStatus::kNotThere ? std::nullopt : std::optional(shot->standing);
 }
 
 std::vector<PieceReading> StateReader::conclude() const {

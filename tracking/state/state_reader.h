@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,10 @@ class StateReader {
   void place(int frame, const LocatedPose& pose);
   /// Some of those. They share the threads.
   void read(const std::vector<camera::RgbdFrame>& frames);
+
+  /// Where a piece stands in a frame that was looked at and found: registered in it, now if it was not read before. Nothing: it is not
+  /// where it is believed to be.
+  [[nodiscard]] std::optional<registration::Standing> standingIn(const camera::RgbdFrame& frame, int piece);
 
   /// Pieces that no frame sees are left out.
   [[nodiscard]] std::vector<PieceReading> conclude() const;
