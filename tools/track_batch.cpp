@@ -52,6 +52,7 @@ struct Job {
   TrackedRecording result;
   std::unique_ptr<recording::Recording> recording;
   std::int64_t time_ns = std::numeric_limits<std::int64_t>::max();  ///< of its first frame
+  std::int64_t last_ns = 0;                                         ///< and of its last one
   bool is_read = false;
 };
 
@@ -130,6 +131,7 @@ class Batch {
         throw base::Error(base::ErrorCode::kInput, "has no frames", folder.string());
       }
       job->time_ns = job->result.start_ns + job->recording->stampNs(0);
+      job->last_ns = job->result.start_ns + job->recording->stampNs(job->recording->frameCount() - 1);
     });
     jobs_.push_back(std::move(job));
   }
@@ -206,7 +208,7 @@ class Batch {
     }
     std::map<std::string, semantic::State> changed;
     semantic::prepareForCommit(events, state, changed);
-    const auto last = history_->appendRecording({result.digest, result.name}, events);
+    const auto last = history_->appendRecording({result.digest, result.name, job.time_ns, job.last_ns}, events);
     if (!last) {  // another process was quicker
       result.status = TrackStatus::kKnown;
       result.events.clear();

@@ -32,6 +32,7 @@ struct Reads {
         next_recording(database, history_sql::nextRecording()),
         last_recording(database, history_sql::lastRecording()),
         span_of_recording(database, history_sql::spanOfRecording()),
+        last_read_recording(database, history_sql::lastReadRecording(database)),
         checkpoints(database, history_sql::checkpoints()) {}
 
   SqliteStatement last_number;
@@ -50,6 +51,7 @@ struct Reads {
   SqliteStatement next_recording;
   SqliteStatement last_recording;
   SqliteStatement span_of_recording;
+  SqliteStatement last_read_recording;
   SqliteStatement checkpoints;
 };
 
@@ -79,7 +81,7 @@ class Writer {
         insert_(database_, "INSERT INTO event VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
         last_(database_, "SELECT max(number) FROM event"),
         find_read_(database_, history_sql::readRecording()),
-        insert_read_(database_, "INSERT OR REPLACE INTO read_recording VALUES(?, ?, ?)") {}
+        insert_read_(database_, "INSERT OR REPLACE INTO tracked_recording VALUES(?, ?, ?, ?, ?)") {}
 
   /// All or none; the last number.
   std::int64_t append(std::span<const Event> events, const History::Checkpoint* checkpoint, const std::string& deflated_home) {
@@ -99,7 +101,8 @@ class Writer {
     }
     const std::int64_t number = insert(events);
     {
-      const SqliteUse use(insert_read_, std::string_view(read.digest), std::string_view(read.recording), number);
+      const SqliteUse use(insert_read_, std::string_view(read.digest), std::string_view(read.recording), number, read.first_ns,
+                          read.last_ns);
       use->step();
     }
     transaction.commit();
@@ -314,15 +317,18 @@ std::vector<std::string> History::recordings() const {
 
 std::optional<History::RecordingSpan> History::findLastRecording() const {
   return database_->read([](Reads& reads) -> std::optional<RecordingSpan> {
-    const SqliteUse last(reads.last_recording);
-    if (!last->step()) {
-      return std::nullopt;
+    std::optional<RecordingSpan> span;
+    if (const SqliteUse last(reads.last_recording); last->step()) {
+      span = RecordingSpan{last->text(0), 0, 0};
+      const SqliteUse use(reads.span_of_recording, std::string_view(span->recording));
+      OIKOS_CHECK(use->step());
+      span->first_ns = use->integer(0);
+      span->last_ns = use->integer(1);
     }
-    RecordingSpan span{last->text(0), 0, 0};
-    const SqliteUse use(reads.span_of_recording, std::string_view(span.recording));
-    OIKOS_CHECK(use->step());
-    span.first_ns = use->integer(0);
-    span.last_ns = use->integer(1);
+    const SqliteUse read(reads.last_read_recording);
+    if (read->step() && (!span || read->integer(2) >= span->last_ns)) {
+      span = RecordingSpan{read->text(0), read->integer(1), read->integer(2)};
+    }
     return span;
   });
 }

@@ -45,8 +45,10 @@ class History {
 
   /// A recording that was read to its end.
   struct ReadRecording {
-    std::string digest;     ///< of its content
-    std::string recording;  ///< its name in events
+    std::string digest;         ///< of its content
+    std::string recording;      ///< its name in events
+    std::int64_t first_ns = 0;  ///< time of its first frame
+    std::int64_t last_ns = 0;   ///< and of its last one
   };
   /// Commits what a recording says, and that it was read, all or none. Nothing if its content was read before, by whatever name, and not
   /// taken back since: nothing is written then.
@@ -93,7 +95,8 @@ class History {
   [[nodiscard]] std::vector<std::string> subjects() const;
   /// Every recording that ever said something, in alphabetical order; also those that were taken back.
   [[nodiscard]] std::vector<std::string> recordings() const;
-  /// The recording with the latest event, and the times of its first and last event; nothing: no recording yet.
+  /// The recording with the latest event, and the times of its first and last event; or a later one that was read to its end, whatever it
+  /// changed, and the times of its frames. Nothing: no recording yet.
   struct RecordingSpan {
     std::string recording;
     std::int64_t first_ns = 0;

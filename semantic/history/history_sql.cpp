@@ -27,16 +27,21 @@ constexpr const char* kSchema =
     "CREATE TABLE checkpoint(id INTEGER PRIMARY KEY, as_of INTEGER NOT NULL, size INTEGER NOT NULL, home_xml_deflated BLOB NOT NULL);";
 
 /// A lookup among sightings alone: a joint's or cup's other events may be many. And which recordings were read, with the last event there
-/// was then. Programs that do not know these keep them.
+/// was then and the times of their first and last frame. Programs that do not know these keep them.
 constexpr const char* kLater =
     "CREATE INDEX IF NOT EXISTS sighting_of_subject ON event(subject, time_ns, number) WHERE kind = 'sighted' AND after IS NOT NULL;"
-    "CREATE TABLE IF NOT EXISTS read_recording(digest TEXT PRIMARY KEY, recording TEXT NOT NULL, last_event INTEGER NOT NULL);";
+    "CREATE TABLE IF NOT EXISTS tracked_recording(digest TEXT PRIMARY KEY, recording TEXT NOT NULL, last_event INTEGER NOT NULL,"
+    " first_ns INTEGER NOT NULL, last_ns INTEGER NOT NULL);";
 
 constexpr std::string_view kSaysState = "e.after IS NOT NULL AND e.kind NOT IN ('missed', 'forgotten')";
 /// Not taken back.
 constexpr std::string_view kCounts =
     "(e.recording IS NULL OR e.kind = 'reverted' OR NOT EXISTS"
     " (SELECT 1 FROM event r WHERE r.kind = 'reverted' AND r.recording = e.recording AND r.number > e.number))";
+
+/// Of a recording that was read.
+constexpr std::string_view kTakenBack =
+    "EXISTS (SELECT 1 FROM event r WHERE r.kind = 'reverted' AND r.recording = t.recording AND r.number > t.last_event)";
 
 constexpr std::string_view kNewestOne = "ORDER BY e.time_ns DESC, e.number DESC LIMIT 1";
 
@@ -160,9 +165,16 @@ std::string spanOfRecording() {
 }
 
 std::string readRecording() {
-  return "SELECT t.recording, EXISTS"
-         " (SELECT 1 FROM event r WHERE r.kind = 'reverted' AND r.recording = t.recording AND r.number > t.last_event)"
-         " FROM read_recording t WHERE t.digest = ?";
+  return "SELECT t.recording, " + std::string(kTakenBack) + " FROM tracked_recording t WHERE t.digest = ?";
+}
+
+std::string lastReadRecording(SqliteDatabase& database) {
+  SqliteStatement tables(database, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'tracked_recording'");
+  if (const SqliteUse use(tables); !use->step()) {  // an older program's history
+    return "SELECT '', 0, 0 WHERE 0";
+  }
+  return "SELECT t.recording, t.first_ns, t.last_ns FROM tracked_recording t WHERE NOT " + std::string(kTakenBack) +
+         " ORDER BY t.last_ns DESC, t.last_event DESC, t.recording LIMIT 1";
 }
 
 std::string checkpoints() {

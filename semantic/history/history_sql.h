@@ -38,7 +38,9 @@ namespace history_sql {
 [[nodiscard]] std::string lastRecording();
 [[nodiscard]] std::string spanOfRecording();  ///< recording; its first and last time_ns
 [[nodiscard]] std::string readRecording();    ///< digest; its name, and whether it was taken back since
-[[nodiscard]] std::string checkpoints();      ///< as_of, size, home_xml_deflated; the newest first
+/// Its name, the times of its first and last frame.
+[[nodiscard]] std::string lastReadRecording(SqliteDatabase& database);
+[[nodiscard]] std::string checkpoints();  ///< as_of, size, home_xml_deflated; the newest first
 
 }  // namespace history_sql
 

@@ -80,8 +80,7 @@ registration::PixelBox cropOf(const recognition::KnobReading& reading) {
   return {low(centre.x()), low(centre.y()), high(centre.x()), high(centre.y())};
 }
 
-KnobStay stayOf(const std::vector<const KnobSighting*>& sightings, const std::vector<Scores>& scores, std::size_t state,
-                double tempering) {
+KnobStay stayOf(const std::vector<const KnobSighting*>& sightings, const std::vector<Scores>& scores, std::size_t state, double tempering) {
   KnobStay stay;
   stay.state = state;
   stay.images = static_cast<int>(sightings.size());
@@ -134,7 +133,8 @@ std::vector<KnobStay> fuseSightings(const std::vector<KnobSighting>& sightings, 
     }
     const auto from = static_cast<std::ptrdiff_t>(begin);
     const auto to = static_cast<std::ptrdiff_t>(end);
-    stays.push_back(stayOf({shown.begin() + from, shown.begin() + to}, {scores.begin() + from, scores.begin() + to}, course[begin], config.tempering));
+    stays.push_back(
+        stayOf({shown.begin() + from, shown.begin() + to}, {scores.begin() + from, scores.begin() + to}, course[begin], config.tempering));
     begin = end;
   }
   return stays;

@@ -62,6 +62,11 @@ struct KnobWatch::Watched {
   std::vector<KnobSighting> sightings;
   std::vector<int> indices;  ///< theirs
 
+  /// Of a frame that was read.
+  [[nodiscard]] int indexOf(int frame) const {
+    const auto found = std::find_if(sightings.begin(), sightings.end(), [&](const KnobSighting& one) { return one.frame == frame; });
+    return indices[static_cast<std::size_t>(found - sightings.begin())];
+  }
   void insert(int index, KnobSighting sighting) {
     const auto place = std::lower_bound(indices.begin(), indices.end(), index) - indices.begin();
     indices.insert(indices.begin() + place, index);
@@ -145,27 +150,37 @@ void KnobWatch::look(const camera::RgbdFrame& frame, const LocatedPose& pose) {
   }
 }
 
+std::set<int> KnobWatch::firstOf(int knob) const {
+  const std::vector<int> chosen = chooseFrames(frames_, knob, frame_choice_);
+  return {chosen.begin(), chosen.end()};
+}
+
+/// Between pictures that disagree, nearer to the moment; and beside those that are too few to tell what they show.
+std::set<int> KnobWatch::furtherOf(int number) const {
+  const Watched& knob = knobs_[static_cast<std::size_t>(number)];
+  const std::vector<KnobStay> stays = fuseSightings(knob.sightings, knob.knob.states.size(), config_.test);
+  std::set<int> further;
+  const auto want = [&](std::optional<int> index) {
+    if (index && !std::binary_search(knob.indices.begin(), knob.indices.end(), *index)) {
+      further.insert(*index);
+    }
+  };
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    if (i + 1 < stays.size()) {
+      want(frameBetween(frames_, number, knob.indexOf(stays[i].last_frame), knob.indexOf(stays[i + 1].first_frame)));
+    }
+    if (stays[i].found > 0 && !stays[i].isTold(config_.test)) {
+      want(frameBeside(frames_, number, knob.indices, knob.indexOf(stays[i].best_frame)));
+    }
+  }
+  return further;
+}
+
 std::vector<WantedKnobs> KnobWatch::wanted() {
   std::map<int, std::set<int>> pieces_by_index;
   for (std::size_t k = 0; k < knobs_.size() && rounds_ <= frame_choice_.most_halvings; ++k) {
     Watched& knob = knobs_[k];
-    knob.wanted.clear();
-    if (rounds_ == 0) {
-      const std::vector<int> chosen = chooseFrames(frames_, static_cast<int>(k), frame_choice_);
-      knob.wanted = {chosen.begin(), chosen.end()};
-    } else {  // between pictures that disagree, nearer to the moment
-      const std::vector<KnobStay> stays = fuseSightings(knob.sightings, knob.knob.states.size(), config_.test);
-      const auto indexOf = [&](int frame) {
-        const auto found = std::find_if(knob.sightings.begin(), knob.sightings.end(), [&](const auto& one) { return one.frame == frame; });
-        return knob.indices[static_cast<std::size_t>(found - knob.sightings.begin())];
-      };
-      for (std::size_t i = 0; i + 1 < stays.size(); ++i) {
-        const auto between = frameBetween(frames_, static_cast<int>(k), indexOf(stays[i].last_frame), indexOf(stays[i + 1].first_frame));
-        if (between && !std::binary_search(knob.indices.begin(), knob.indices.end(), *between)) {
-          knob.wanted.insert(*between);
-        }
-      }
-    }
+    knob.wanted = rounds_ == 0 ? firstOf(static_cast<int>(k)) : furtherOf(static_cast<int>(k));
     for (const int index : knob.wanted) {
       pieces_by_index[index].insert(knob.piece);
     }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,10 @@
 #include "recognition/knobs/knob_reader.h"
 #include "registration/articulated/articulated_registration.h"
 #include "semantic/model/home.h"
-#include "tracking/state/knob_stays.h"
-#include "tracking/state/knob_track_config.h"
 #include "tracking/localisation/localiser.h"
 #include "tracking/state/articulated_pieces.h"
+#include "tracking/state/knob_stays.h"
+#include "tracking/state/knob_track_config.h"
 #include "tracking/state/piece_views.h"
 
 namespace oikos::tracking {
@@ -65,6 +66,8 @@ class KnobWatch {
   [[nodiscard]] std::optional<double> worthOf(const Watched& knob, const camera::RgbdFrame& frame,
                                               const Eigen::Isometry3d& T_map_camera) const;
   void addKnobs(int piece);
+  [[nodiscard]] std::set<int> firstOf(int knob) const;
+  [[nodiscard]] std::set<int> furtherOf(int knob) const;
 
   const std::vector<ArticulatedPiece>& pieces_;
   camera::PinholeCamera camera_;
