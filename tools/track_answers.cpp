@@ -203,6 +203,11 @@ Json recordingJson(const TrackedRecording& recording) {
 
 }  // namespace
 
+std::string eventText(const tracking::StateEvent& event) {
+  return event.event.subject + " " + event.word + " " + (event.event.before ? stateText(*event.event.before) + " -> " : "") +
+         stateText(*event.event.after);
+}
+
 void printText(const TrackedRecording& recording, bool is_dry) {
   const std::string folder = recording.folder.string();
   if (recording.status == TrackStatus::kKnown) {

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "tools/track_batch.h"
 
 namespace oikos::tools {
+
+/// "fridge-door-joint opened 0.0 deg -> 70.2 deg".
+[[nodiscard]] std::string eventText(const tracking::StateEvent& event);
 
 /// On stdout, for a person.
 void printText(const TrackedRecording& recording, bool is_dry);

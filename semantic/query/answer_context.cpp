@@ -57,7 +57,7 @@ bool AnswerContext::goToTime() {
   }
   span_ = resolveTime(*question_.time, clock_, last_recording);
   if (!span_) {
-    nothingFits("I know of no time '" + question_.time->words + "'.");
+    nothingFits(question_.time->last_recording ? "No recording has been read yet." : "I know of no time '" + question_.time->words + "'.");
     return false;
   }
   if (span_->to_come) {

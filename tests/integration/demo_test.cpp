@@ -38,17 +38,36 @@ turn_rate_dps = 60
 turn_acceleration_dps2 = 120
 )";
 
+/// The kitchen's door was opened meanwhile.
+constexpr const char* kThen = R"(start = "2026-03-02T09:00:00Z"
+rate_hz = 6
+sensor = "kinect1"
+changes = ["kitchen-door-door-joint 60 deg"]
+[camera]
+width = 320
+height = 240
+fx = 262.5
+fy = 262.5
+cx = 159.5
+cy = 119.5
+[path]
+start = [0.4, 0.0, 10.0]
+waypoints = ["0.6 0.0 yaw 60"]
+speed_mps = 0.4
+)";
+
 class Demo : public testing::Test {
  protected:
   Demo() {
     fs::create_directories(home() / "scenes");
     fs::copy_file(fs::path(OIKOS_SOURCE_DIR) / "homes/demo/home.xml", home() / "home.xml");
     (void)folder_.write("home/scenes/short.toml", kScene);
+    (void)folder_.write("home/scenes/then.toml", kThen);
   }
   [[nodiscard]] fs::path home() const { return folder_.path() / "home"; }
   [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
-  [[nodiscard]] ProcessResult run(const std::string& scene) const {
-    return runOikos({"demo", "--home", home().string(), "--scene", scene, "--out", out().string()});
+  [[nodiscard]] ProcessResult run(const std::string& scene, const std::string& then = "") const {
+    return runOikos({"demo", "--home", home().string(), "--scene", scene, "--then", then, "--out", out().string()});
   }
 
   TemporaryFolder folder_;
@@ -64,7 +83,7 @@ double shareDrawn(const cv::Mat& picture) {
 
 TEST_F(Demo, SimulatesMapsAsksAndShows) {
   const std::string before = base::readFile(home() / "home.xml");
-  const ProcessResult result = run("short");
+  const ProcessResult result = run("short", "then");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("> Where is the blue cup?\n2 things fit: the blue cup on the kitchen table in the kitchen"), std::string::npos)
       << result.out;
@@ -80,7 +99,11 @@ TEST_F(Demo, SimulatesMapsAsksAndShows) {
   const cv::Mat floor = recording::decodeColorImage(base::readFile(out() / "floor.png"), "floor.png");
   EXPECT_GT(shareDrawn(floor), 0.05);
   const std::string page = base::readFile(out() / "report.html");
-  for (const char* part : {"Where is the blue cup?", "2 things fit", "data:image/png;base64,", "data:image/jpeg;base64,", "ATE RMSE"}) {
+  EXPECT_NE(result.out.find("  kitchen-door-door-joint opened 0.0 deg -> "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("before: No recording has been read yet.\nafter:  The kitchen door"), std::string::npos) << result.out;
+  EXPECT_GT(shareDrawn(recording::decodeColorImage(base::readFile(out() / "floor-later.png"), "floor-later.png")), 0.05);
+  for (const char* part : {"Where is the blue cup?", "2 things fit", "kitchen-door-door-joint opened", "what shows it",
+                           "data:image/png;base64,", "data:image/jpeg;base64,", "ATE RMSE"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(base::readFile(home() / "home.xml"), before) << "the demo works on a copy";
@@ -90,7 +113,11 @@ TEST_F(Demo, SimulatesMapsAsksAndShows) {
 TEST_F(Demo, SaysWhichSceneIsMissing) {
   const ProcessResult result = run("nowhere");
   EXPECT_EQ(result.exit_code, 2) << result.err;
-  EXPECT_NE(result.err.find("has no scene 'nowhere'; it has: short"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("has no scene 'nowhere'; it has: short, then"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(out()));
+  const ProcessResult second = run("short", "nowhere");
+  EXPECT_EQ(second.exit_code, 2) << second.err;
+  EXPECT_NE(second.err.find("has no scene 'nowhere'"), std::string::npos) << second.err;
   EXPECT_FALSE(fs::exists(out()));
 }
 
