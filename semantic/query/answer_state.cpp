@@ -2,6 +2,7 @@
 // Answers about states: what is open, and how far; what a knob is set to.
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include "core/base/number_text.h"
 #include "semantic/query/answer_context.h"
@@ -24,16 +25,22 @@ std::string stateSentence(const AnswerContext& ctx, const Thing& thing) {
   return theName(thing) + (several ? ": " : " " + ctx.be(thing) + " ") + stateText(thing);
 }
 
+/// Of a knob's states, the one in which nothing runs.
+bool isOffState(const std::string& name) {
+  return name == "off" || name == "0";
+}
+
 /// Whether all words of the state that was asked for are in the knob's state, or nothing: the knob cannot be so at all.
 std::optional<bool> isSetTo(const Knob& knob, const std::string& state) {
   if (state == "on" || state == "running") {
-    return knob.current != "off";
+    return !isOffState(knob.current);
   }
   const std::vector<std::string> asked = wordsOf(state);
   const auto fits = [&](const std::string& name) {
     const std::vector<std::string> words = wordsOf(name);
-    return std::all_of(asked.begin(), asked.end(),
-                       [&](const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); });
+    return (state == "off" && isOffState(name)) || std::all_of(asked.begin(), asked.end(), [&](const std::string& word) {
+             return std::find(words.begin(), words.end(), word) != words.end();
+           });
   };
   const bool can_be = std::any_of(knob.states.begin(), knob.states.end(), [&](const KnobState& s) { return fits(s.name); });
   return can_be ? std::optional(fits(knob.current)) : std::nullopt;
@@ -133,11 +140,27 @@ void answerIsState(AnswerContext& ctx) {
   ctx.say((yes ? "yes: " : "no: ") + enumerated(texts) + ".");
 }
 
+/// Drops a piece all of whose doors and drawers are things by themselves: "which drawers" is not of the chest.
+void keepParts(Things& things) {
+  std::set<const Joint*> of_parts;
+  for (const Thing* thing : things) {
+    if (thing->kind == ThingKind::kPart && jointsOf(*thing).size() == 1) {
+      of_parts.insert(jointsOf(*thing).front());
+    }
+  }
+  std::erase_if(things, [&](const Thing* thing) {
+    const std::vector<const Joint*> joints = jointsOf(*thing);
+    return thing->kind != ThingKind::kPart && !joints.empty() &&
+           std::all_of(joints.begin(), joints.end(), [&](const Joint* joint) { return of_parts.contains(joint); });
+  });
+}
+
 void answerWhichState(AnswerContext& ctx) {
-  const auto things = ctx.resolveThing();
+  auto things = ctx.resolveThing();
   if (!things) {
     return;
   }
+  keepParts(*things);
   const std::string& state = ctx.question().state;
   Things fitting;
   bool any_has_it = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// METHODS S105 from end to end: the demo apartment is mapped once, believed to 5 mm; then twelve short recordings are tracked between which,
-// and in which, doors, drawers and knobs are moved. After each the home is as the apartment is, and says so.
+// METHODS S105 from end to end: the demo apartment is mapped once, believed to 5 mm; then twelve short recordings are tracked between
+// which, and in which, doors, drawers and knobs are moved. After each the home is as the apartment is, and says so.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -98,8 +98,7 @@ class Scenario : public ::testing::Test {
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
   void simulate(const std::string& name, const std::string& text) const {
-    const std::string belief =
-        "[belief]\ndimension_m = 0.005\nplacement_m = 0.005\nplacement_deg = 0.3\naxis_m = 0.003\naxis_deg = 0.5\n";
+    const std::string belief = "[belief]\ndimension_m = 0.005\nplacement_m = 0.005\nplacement_deg = 0.3\naxis_m = 0.003\naxis_deg = 0.5\n";
     const fs::path file = folder_.write("home/scenes/" + name + ".toml", text + belief);
     const ProcessResult simulated = runOikos({"simulate", file.string(), "--out", path(name), "--quiet"});
     ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
@@ -129,8 +128,9 @@ class Scenario : public ::testing::Test {
   Json track(int number, const Visit& visit) {
     const Route& route = kRoutes.at(visit.route);
     const std::string name = "visit-" + std::to_string(number);
-    simulate(name, "start = \"2026-03-03T" + std::to_string(10 + number) + ":00:00Z\"\nrate_hz = 8\nsensor = \"kinect1\"\nduration_s = 7.9\n" +
-                       changesText(visit.changes) + "[path]\nstart = [" + route.start + "]\nwaypoints = [" + route.waypoints +
+    simulate(name, "start = \"2026-03-03T" + std::to_string(10 + number) +
+                       ":00:00Z\"\nrate_hz = 8\nsensor = \"kinect1\"\nduration_s = 7.9\n" + changesText(visit.changes) +
+                       "[path]\nstart = [" + route.start + "]\nwaypoints = [" + route.waypoints +
                        "]\nspeed_mps = 0.6\nturn_rate_dps = 50\nstand_s = 0.4\n");
     for (const Change& change : visit.changes) {
       values_[change.id] = change.value;

@@ -69,6 +69,41 @@ constexpr AnswerStatus kNothing = AnswerStatus::kNothingFits;
 constexpr AnswerStatus kUnknown = AnswerStatus::kUnknownWord;
 constexpr AnswerStatus kNotUnderstood = AnswerStatus::kNotUnderstood;
 
+/// The demo's oven, whose knobs go from 0 to 9, and its kitchen's drawers, of which the first is open.
+Home demoHouse(const std::string& setting) {
+  Home home = readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/demo/home.xml").home;
+  for (Room& room : home.rooms) {
+    for (CopyOnWrite<LargeObject>& object : room.objects) {
+      if (object->id.value == "oven") {
+        object.edit().articulation->knobs[2].current = setting;
+      } else if (object->id.value == "drawers") {
+        object.edit().articulation->joints[0].value = 0.25;
+      }
+    }
+  }
+  return home;
+}
+
+TEST(AnswerState, AKnobAtZeroIsOff) {
+  const Home off = demoHouse("0");
+  const HomeIndex index_off(off);
+  EXPECT_EQ(answerQuestion({&index_off, nullptr, kNow_ns, {}}, "is the oven on?").yes, false);
+  EXPECT_EQ(answerQuestion({&index_off, nullptr, kNow_ns, {}}, "is the oven off?").yes, true);
+  const Home on = demoHouse("4");
+  const HomeIndex index_on(on);
+  const Answer answer = answerQuestion({&index_on, nullptr, kNow_ns, {}}, "is the oven on?");
+  EXPECT_EQ(answer.yes, true);
+  EXPECT_EQ(answer.sentence, "Yes: the third knob of the oven is set to 4.");
+  EXPECT_EQ(answerQuestion({&index_on, nullptr, kNow_ns, {}}, "is the oven off?").yes, false);
+}
+
+TEST(AnswerState, OfDrawersThePieceThatHasThemIsNone) {
+  const Home home = demoHouse("0");
+  const HomeIndex index(home);
+  EXPECT_EQ(answerQuestion({&index, nullptr, kNow_ns, {}}, "which drawers are open?").sentence,
+            "The first drawer of the kitchen drawers is open by 25 cm.");
+}
+
 TEST(Answer, AboutThePapersHouse) {
   expectAnswers(papersHouse(),
                 {{"where is the blue cup?", kAnswered, {"blue-cup"}, "The blue cup is on the kitchen table in the kitchen."},
