@@ -95,7 +95,7 @@ Summary summarise(const Located& located) {
   std::vector<double> moved_m;
   std::vector<double> moved_rad;
   for (const LocatedPose& pose : located.poses) {
-    summary.found += pose.source != PoseSource::kNone ? 1 : 0;
+    summary.found += pose.isFound() ? 1 : 0;
     summary.relocalised += pose.in_map.status == mapping::LocateStatus::kRelocalised ? 1 : 0;
     summary.tracked += pose.in_map.status == mapping::LocateStatus::kTracked ? 1 : 0;
     if (!pose.landmarks) {

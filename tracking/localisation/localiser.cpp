@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/localisation/localiser.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "core/base/config_rules.h"
 #include "core/base/degrees.h"
 
@@ -15,7 +19,8 @@ std::vector<std::string> LocaliseConfig::validate() const {
       .messages();
 }
 
-Localiser::Localiser(const LocaliserTools& tools, const LocaliseConfig& config) : tools_(tools), config_(config) {
+Localiser::Localiser(const LocaliserTools& tools, const LocaliseConfig& config)
+    : tools_(tools), config_(config), carrier_(tools.camera, tools.odometry, config.map.pyramid_levels, config.carry) {
   if (tools.relocaliser != nullptr) {
     tracker_.emplace(*tools.relocaliser);
   }
@@ -24,31 +29,54 @@ Localiser::Localiser(const LocaliserTools& tools, const LocaliseConfig& config) 
 LocatedPose Localiser::add(const camera::RgbdFrame& frame) {
   LocatedPose located = locate(frame);
   refine(frame, located);
+  return concluded(frame, std::move(located));
+}
+
+LocatedPose Localiser::addUnrefined(const camera::RgbdFrame& frame) {
+  LocatedPose located = locate(frame);
+  if (!located.isFound()) {
+    refine(frame, located);
+  }
+  return concluded(frame, std::move(located));
+}
+
+/// A pose that was found is where the next ones are carried from.
+LocatedPose Localiser::concluded(const camera::RgbdFrame& frame, LocatedPose located) {
+  if (located.source == PoseSource::kNone) {
+    take(carrier_.carry(frame), located);
+  }
+  is_carrying_ = !located.isFound();
+  if (located.isFound()) {
+    carrier_.start(frame, {located.T_map_camera, located.covariance});
+  }
   if (located.source != PoseSource::kNone) {
     last_ = located;
   }
   return located;
 }
 
-LocatedPose Localiser::addUnrefined(const camera::RgbdFrame& frame) {
-  LocatedPose located = locate(frame);
-  if (located.source == PoseSource::kNone) {
-    refine(frame, located);
+void Localiser::take(const std::optional<CarriedPose>& carried, LocatedPose& located) {
+  if (carried) {
+    located.source = PoseSource::kCarried;
+    located.T_map_camera = carried->T_map_camera;
+    located.covariance = carried->covariance;
   }
-  if (located.source != PoseSource::kNone) {
-    last_ = located;
-  }
-  return located;
 }
 
 LocatedPose Localiser::locate(const camera::RgbdFrame& frame) {
   LocatedPose located;
   located.frame = frame.index;
   located.stamp_ns = frame.stamp_ns;
-  const std::optional<Eigen::Isometry3d> T_map_camera_prior = predict(frame.stamp_ns);
-  located.T_map_camera_before = T_map_camera_prior;
+  located.T_map_camera_before = tools_.prior != nullptr ? tools_.prior->findCamera(frame.stamp_ns) : std::nullopt;
+  if (!located.T_map_camera_before && is_carrying_) {
+    take(carrier_.carry(frame), located);
+    located.T_map_camera_before = located.source == PoseSource::kCarried ? std::optional(located.T_map_camera) : std::nullopt;
+  }
+  if (!located.T_map_camera_before) {
+    located.T_map_camera_before = predict(frame.stamp_ns);
+  }
   if (tracker_) {
-    located.in_map = tracker_->add(frame, T_map_camera_prior);
+    located.in_map = tracker_->add(frame, located.T_map_camera_before);
     if (located.in_map.found()) {
       located.source = PoseSource::kMap;
       located.T_map_camera = located.in_map.T_map_camera;
@@ -59,13 +87,8 @@ LocatedPose Localiser::locate(const camera::RgbdFrame& frame) {
   return located;
 }
 
-/// From what was given, else from the last pose, as far as the wheels know what came after it.
+/// From the last pose, as far as the wheels know what came after it.
 std::optional<Eigen::Isometry3d> Localiser::predict(std::int64_t stamp_ns) const {
-  if (tools_.prior != nullptr) {
-    if (const auto T_map_camera = tools_.prior->findCamera(stamp_ns)) {
-      return T_map_camera;
-    }
-  }
   if (!last_) {
     return std::nullopt;
   }
@@ -73,16 +96,30 @@ std::optional<Eigen::Isometry3d> Localiser::predict(std::int64_t stamp_ns) const
   return T_last_now ? last_->T_map_camera * *T_last_now : last_->T_map_camera;
 }
 
+registration::CameraPrior Localiser::priorOf(const LocatedPose& located) const {
+  registration::CameraPrior prior;
+  prior.T_map_camera = *located.T_map_camera_before;
+  prior.robot_camera = tools_.T_base_camera.inverse().translation();
+  prior.sigma_m = config_.map_prior_sigma_m;
+  prior.sigma_rad = config_.map_prior_sigma_deg * base::kRadPerDeg;
+  if (located.source == PoseSource::kNone) {
+    prior.sigma_m = config_.prior_sigma_m;
+    prior.sigma_rad = config_.prior_sigma_deg * base::kRadPerDeg;
+  } else if (located.source == PoseSource::kCarried) {
+    const Eigen::Matrix3d R = located.T_map_camera.linear();
+    const Eigen::Matrix3d place_map = R * located.covariance.topLeftCorner<3, 3>() * R.transpose();
+    const Eigen::Matrix3d turn_map = R * located.covariance.bottomRightCorner<3, 3>() * R.transpose();
+    prior.sigma_m = std::max(prior.sigma_m, std::sqrt(std::max(place_map(0, 0), place_map(1, 1))));
+    prior.sigma_rad = std::max(prior.sigma_rad, std::sqrt(turn_map(2, 2)));
+  }
+  return prior;
+}
+
 void Localiser::refine(const camera::RgbdFrame& frame, LocatedPose& located) const {
   if (tools_.furniture == nullptr || !located.T_map_camera_before || located.landmarks) {
     return;
   }
-  const bool in_map = located.source == PoseSource::kMap;
-  registration::CameraPrior prior;
-  prior.T_map_camera = *located.T_map_camera_before;
-  prior.robot_camera = tools_.T_base_camera.inverse().translation();
-  prior.sigma_m = in_map ? config_.map_prior_sigma_m : config_.prior_sigma_m;
-  prior.sigma_rad = (in_map ? config_.map_prior_sigma_deg : config_.prior_sigma_deg) * base::kRadPerDeg;
+  const registration::CameraPrior prior = priorOf(located);
   const registration::Scan scan = registration::makeScan(frame.depth_m, tools_.camera, config_.scan);
   located.landmarks = registration::refineByLandmarks(*tools_.furniture, scan, prior, config_.landmarks, tools_.only);
   if (located.landmarks->status == registration::RefinementStatus::kRefined) {

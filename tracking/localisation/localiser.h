@@ -19,6 +19,7 @@
 #include "registration/landmark/landmark_refiner.h"
 #include "registration/scan.h"
 #include "tracking/localisation/home_landmarks.h"
+#include "tracking/localisation/pose_carrier.h"
 #include "tracking/localisation/pose_prior.h"
 
 namespace oikos::tracking {
@@ -28,6 +29,7 @@ struct LocaliseConfig {
   registration::ScanConfig scan;
   registration::LandmarkConfig landmarks;
   LandmarkChoice furniture;
+  CarryConfig carry;
   double prior_sigma_m = 0.05;       ///< of a given prior's x and y each
   double prior_sigma_deg = 3.0;      ///< and of its yaw
   double map_prior_sigma_m = 0.02;   ///< how well map and furniture agree about the place,
@@ -39,6 +41,7 @@ struct LocaliseConfig {
     visitor("scan", scan);
     visitor("landmarks", landmarks);
     visitor("furniture", furniture);
+    visitor("carry", carry);
     visitor("prior_sigma_m", prior_sigma_m);
     visitor("prior_sigma_deg", prior_sigma_deg);
     visitor("map_prior_sigma_m", map_prior_sigma_m);
@@ -50,12 +53,13 @@ struct LocaliseConfig {
 /// What a pose rests on.
 enum class PoseSource {
   kNone,       ///< not found
+  kCarried,    ///< not found either, but carried on from the last pose that was
   kMap,        ///< seen again in the saved map
   kLandmarks,  ///< and, or after a prior, refined by furniture
 };
 constexpr auto enumTable(PoseSource) {
   return std::to_array<base::EnumName<PoseSource>>(
-      {{PoseSource::kNone, "none"}, {PoseSource::kMap, "map"}, {PoseSource::kLandmarks, "landmarks"}});
+      {{PoseSource::kNone, "none"}, {PoseSource::kCarried, "carried"}, {PoseSource::kMap, "map"}, {PoseSource::kLandmarks, "landmarks"}});
 }
 
 struct LocatedPose {
@@ -67,6 +71,8 @@ struct LocatedPose {
   std::optional<Eigen::Isometry3d> T_map_camera_before;        ///< what the landmarks refined: from the map, or the prior
   mapping::LocateResult in_map;                                ///< of a localiser with a map
   std::optional<registration::LandmarkRefinement> landmarks;   ///< if there was something to refine
+
+  [[nodiscard]] bool isFound() const { return source == PoseSource::kMap || source == PoseSource::kLandmarks; }
 };
 
 /// What a localiser works with; all of it outlives it. Without a map a prior is needed, without furniture there is no refinement.
@@ -80,8 +86,8 @@ struct LocaliserTools {
   const mapping::WheelOdometry* odometry = nullptr;
 };
 
-/// Finds a drive's frames, one after the other: in the map without a prior, tracked on, then refined by the furniture in view. Not
-/// thread-safe.
+/// Finds a drive's frames, one after the other: in the map without a prior, tracked on, then refined by the furniture in view. Where
+/// neither tells the place, the last one is carried on with the camera's own motion. Not thread-safe.
 class Localiser {
  public:
   Localiser(const LocaliserTools& tools, const LocaliseConfig& config);
@@ -95,12 +101,17 @@ class Localiser {
 
  private:
   [[nodiscard]] LocatedPose locate(const camera::RgbdFrame& frame);
+  LocatedPose concluded(const camera::RgbdFrame& frame, LocatedPose located);
+  static void take(const std::optional<CarriedPose>& carried, LocatedPose& located);
+  [[nodiscard]] registration::CameraPrior priorOf(const LocatedPose& located) const;
   [[nodiscard]] std::optional<Eigen::Isometry3d> predict(std::int64_t stamp_ns) const;
 
   LocaliserTools tools_;
   LocaliseConfig config_;
   std::optional<mapping::MapTracker> tracker_;
-  std::optional<LocatedPose> last_;  ///< found
+  PoseCarrier carrier_;
+  std::optional<LocatedPose> last_;  ///< found or carried
+  bool is_carrying_ = false;         ///< the last frame was not found
 };
 
 }  // namespace oikos::tracking

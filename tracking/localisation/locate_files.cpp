@@ -82,7 +82,7 @@ void writeLocated(const std::vector<LocatedPose>& poses, const std::optional<Eig
   std::string landmarks = "t_s,frame,id,verdict,pixels,agreeing,weight,contradiction,dropped_parts\n";
   for (const LocatedPose& pose : poses) {
     csv += csvLine(pose);
-    if (pose.source != PoseSource::kNone) {
+    if (pose.isFound()) {
       found.push_back({pose.stamp_ns, pose.T_map_camera});
     }
     if (pose.landmarks) {

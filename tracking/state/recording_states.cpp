@@ -23,7 +23,7 @@ void locate(const recording::Recording& recording, Localiser& localiser, StateRe
   recording::FrameStream stream(recording, {.stride = stride, .capacity = 4});
   while (const auto frame = stream.next()) {
     const LocatedPose pose = localiser.addUnrefined(*frame);
-    states.found += pose.source != PoseSource::kNone ? 1 : 0;
+    states.found += pose.isFound() ? 1 : 0;
     reader.look(*frame, pose);
     knobs.look(*frame, pose);
     base::reportProgress(progress, {"locating", stream.statistics().read + stream.statistics().unreadable, stream.statistics().listed});
@@ -80,7 +80,9 @@ void readKnobs(const recording::Recording& recording, const StateTools& tools, K
 std::vector<FurniturePlace> placesOf(const recording::Recording& recording, const StateTools& tools) {
   std::vector<FurnitureView> frames;
   for (const SeenFrame& seen : tools.reader.frames()) {
-    frames.push_back({seen.frame, seen.stamp_ns, seen.T_map_camera});
+    if (seen.source != PoseSource::kCarried) {
+      frames.push_back({seen.frame, seen.stamp_ns, seen.T_map_camera});
+    }
   }
   MovedFurnitureConfig config = tools.config.furniture;
   config.threads = tools.threads;

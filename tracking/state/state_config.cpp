@@ -11,6 +11,8 @@ std::vector<std::string> FrameChoiceConfig::validate() const {
       .atLeast("step_px", step_px, 1)
       .atLeast("min_pixels", min_pixels, 1)
       .greater("max_range_m", max_range_m, 0.0)
+      .greater("max_pose_sigma_m", max_pose_sigma_m, 0.0)
+      .greater("max_pose_sigma_deg", max_pose_sigma_deg, 0.0)
       .greater("gap_s", gap_s, 0.0)
       .atLeast("spacing_s", spacing_s, 0.0)
       .atLeast("most_frames", most_frames, 1)

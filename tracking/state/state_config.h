@@ -16,16 +16,18 @@ namespace oikos::tracking {
 /// Which frames are worth a registration. One takes as long as several frames take to be located, and neighbouring frames repeat each
 /// other: of a stay before a piece some frames are enough. Where they disagree, frames between them are taken until the moment is found.
 struct FrameChoiceConfig {
-  double most_hz = 10.0;       ///< frames of a faster recording are passed over
-  int step_px = 8;             ///< readings of pieces are counted in one pixel of so many rows and columns
-  int min_pixels = 40;         ///< of these, those within its reach
-  double max_range_m = 4.0;    ///< of readings that count
-  double gap_s = 4.0;          ///< out of view for longer, a piece is seen anew
-  double spacing_s = 0.7;      ///< between two frames of one stay, at least,
-  int most_frames = 8;         ///< and of one stay, at most
-  double reach_weight = 0.6;   ///< of a reading where only an open door or drawer can be, against one where the piece stands
-  double whole_weight = 0.15;  ///< of a frame's worth: that the piece is in it as a whole
-  int most_halvings = 8;       ///< of the time between two frames that disagree
+  double most_hz = 10.0;            ///< frames of a faster recording are passed over
+  int step_px = 8;                  ///< readings of pieces are counted in one pixel of so many rows and columns
+  int min_pixels = 40;              ///< of these, those within its reach
+  double max_range_m = 4.0;         ///< of readings that count
+  double max_pose_sigma_m = 0.05;   ///< of a frame's pose at the piece, in x and in y; one in more doubt does not see it
+  double max_pose_sigma_deg = 2.5;  ///< likewise of its yaw
+  double gap_s = 4.0;               ///< out of view for longer, a piece is seen anew
+  double spacing_s = 0.7;           ///< between two frames of one stay, at least,
+  int most_frames = 8;              ///< and of one stay, at most
+  double reach_weight = 0.6;        ///< of a reading where only an open door or drawer can be, against one where the piece stands
+  double whole_weight = 0.15;       ///< of a frame's worth: that the piece is in it as a whole
+  int most_halvings = 8;            ///< of the time between two frames that disagree
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -33,6 +35,8 @@ struct FrameChoiceConfig {
     visitor("step_px", step_px);
     visitor("min_pixels", min_pixels);
     visitor("max_range_m", max_range_m);
+    visitor("max_pose_sigma_m", max_pose_sigma_m);
+    visitor("max_pose_sigma_deg", max_pose_sigma_deg);
     visitor("gap_s", gap_s);
     visitor("spacing_s", spacing_s);
     visitor("most_frames", most_frames);

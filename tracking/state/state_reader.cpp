@@ -86,6 +86,21 @@ registration::PixelBox cropOf(const ArticulatedPiece& piece, int joint, double v
   return {static_cast<int>(low.x()), static_cast<int>(low.y()), static_cast<int>(high.x()), static_cast<int>(high.y())};
 }
 
+/// What a frame's pose may be off at a piece: in x and in y, and in yaw.
+struct PoseSigma {
+  double m = 0.0;
+  double deg = 0.0;
+};
+PoseSigma poseSigmaAt(const ArticulatedPiece& piece, const SeenFrame& frame) {
+  const Eigen::Vector3d middle_camera = frame.T_map_camera.inverse() * piece.believed.T_map_model * piece.box_model.center();
+  Eigen::Matrix<double, 3, 6> J;  // of T exp(xi) p: R (v + w x p)
+  J << Eigen::Matrix3d::Identity(), -geometry::skew(middle_camera);
+  const Eigen::Matrix3d R = frame.T_map_camera.linear();
+  const Eigen::Matrix3d at_piece = R * J * frame.covariance * J.transpose() * R.transpose();
+  const Eigen::Matrix3d turn = R * frame.covariance.bottomRightCorner<3, 3>() * R.transpose();
+  return {std::sqrt(0.5 * (at_piece(0, 0) + at_piece(1, 1))), std::sqrt(turn(2, 2)) / base::kRadPerDeg};
+}
+
 }  // namespace
 
 /// What is known of a piece so far.
@@ -168,6 +183,10 @@ void StateReader::look(const camera::RgbdFrame& frame, const LocatedPose& pose) 
     return;
   }
   frames_.push_back(lookFor(pieces_, frame, camera_, pose, config_.frames));
+  std::erase_if(frames_.back().sights, [&](const PieceSight& sight) {
+    const PoseSigma off = poseSigmaAt(pieces_[static_cast<std::size_t>(sight.piece)], frames_.back());
+    return off.m > config_.frames.max_pose_sigma_m || off.deg > config_.frames.max_pose_sigma_deg;
+  });
   for (const PieceSight& sight : frames_.back().sights) {
     ++tracks_[static_cast<std::size_t>(sight.piece)]->frames_in_view;
   }
@@ -235,14 +254,8 @@ registration::ImageContext StateReader::contextOf(const SeenFrame& frame, const 
   const bool is_fixed = piece.movability == semantic::Movability::kFixed;
   const double placed_m = is_fixed ? config_.placement.fixed_sigma_m : config_.placement.shiftable_sigma_m;
   const double placed_deg = is_fixed ? config_.placement.fixed_sigma_deg : config_.placement.shiftable_sigma_deg;
-  const Eigen::Vector3d middle_camera = frame.T_map_camera.inverse() * piece.believed.T_map_model * piece.box_model.center();
-  Eigen::Matrix<double, 3, 6> J;  // of T exp(xi) p: R (v + w x p)
-  J << Eigen::Matrix3d::Identity(), -geometry::skew(middle_camera);
-  const Eigen::Matrix3d R = frame.T_map_camera.linear();
-  const Eigen::Matrix3d at_piece = R * J * frame.covariance * J.transpose() * R.transpose();
-  const Eigen::Matrix3d turn = R * frame.covariance.bottomRightCorner<3, 3>() * R.transpose();
-  const double located_sq = 0.5 * (at_piece(0, 0) + at_piece(1, 1));
-  return {std::sqrt(placed_m * placed_m + located_sq), std::hypot(placed_deg, std::sqrt(turn(2, 2)) / base::kRadPerDeg), {}};
+  const PoseSigma located = poseSigmaAt(piece, frame);
+  return {std::hypot(placed_m, located.m), std::hypot(placed_deg, located.deg), {}};
 }
 
 void StateReader::read(const std::vector<camera::RgbdFrame>& frames) {

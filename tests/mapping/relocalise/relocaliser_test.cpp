@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
-#include <opencv2/core.hpp>
 
 #include "core/geometry/se3.h"
 #include "mapping/graph/keyframe_reader.h"
 #include "mapping/relocalise/map_tracker.h"
 #include "tests/mapping/graph/synthetic_drive.h"
+#include "tests/mapping/relocalise/saved_room.h"
 #include "tests/support/config_rules_check.h"
 #include "tests/support/enum_table_check.h"
 #include "tests/support/expect_error.h"
@@ -18,56 +17,6 @@
 
 namespace oikos::mapping {
 namespace {
-
-constexpr double kFrameDeg = 4.0;
-
-test::SyntheticRecording recordingOf(const std::vector<Eigen::Isometry3d>& drive, const std::set<int>& blank_frames = {},
-                                     std::uint64_t seed = 1) {
-  test::SyntheticSensor sensor;
-  sensor.gray_sigma = 2.0;
-  sensor.depth_sigma_scale = 1.0;
-  sensor.blank_frames = blank_frames;
-  sensor.seed = seed;
-  return {test::TexturedWorld::furnished(), test::texturedCamera(), drive, sensor};
-}
-
-/// Keyframes of a turn through half of the room, where they truly were, saved as `oikos map` saves them.
-class SavedRoom {
- public:
-  SavedRoom() {
-    const auto recording = recordingOf(turnAround(0.0, 180.0, static_cast<int>(180.0 / kFrameDeg)));
-    const DriveRun run(recording);
-    const recording::Trajectory truth = recording.truth();
-    KeyframeStoreWriter writer(file(), recording.camera());
-    for (std::size_t n = 0; n < run.drive.graph.nodes.size(); ++n) {
-      const Node& node = run.drive.graph.nodes[n];
-      if (!node.keyframe) {
-        continue;
-      }
-      StoredKeyframe stored{
-          static_cast<int>(n),   node.frame, node.stamp_ns, truth[static_cast<std::size_t>(node.frame)].T_map_camera, {}, {},
-          run.drive.features[n], {}};
-      for (const int landmark : node.hosted) {
-        stored.landmarks.push_back(run.drive.graph.landmarks[static_cast<std::size_t>(landmark)]);
-      }
-      const camera::RgbdFrame frame = recording.read(node.frame, recording::Channels::kColor);
-      writer.add(stored, encodePictures(frame.color, frame.depth_m));
-      ++keyframes;
-    }
-    writer.commit();
-  }
-  [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "keyframes.sqlite"; }
-
-  int keyframes = 0;
-
- private:
-  test::TemporaryFolder folder_;
-};
-
-const SavedRoom& savedRoom() {
-  static const SavedRoom room;
-  return room;
-}
 
 void expectNear(const LocateResult& found, const Eigen::Isometry3d& T_map_camera, int frame) {
   const geometry::Vector6d xi = geometry::logSe3(found.T_map_camera.inverse() * T_map_camera);

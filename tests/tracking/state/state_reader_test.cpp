@@ -190,6 +190,44 @@ TEST(StateReader, WhatIsOutOfViewOrNotLocatedSaysNothing) {
   EXPECT_TRUE(reader.conclude().empty());
 }
 
+/// The camera's place with an error, and a deviation that says so.
+LocatedPose carriedPose(int frame, double sigma_m, double sigma_rad) {
+  LocatedPose pose = Drive::poseOf(frame);
+  pose.source = PoseSource::kCarried;
+  geometry::Vector6d sigma;
+  sigma << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
+  pose.covariance = sigma.cwiseAbs2().asDiagonal();
+  pose.T_map_camera = pose.T_map_camera * geometry::expSe3(0.8 * sigma);
+  return pose;
+}
+
+TEST(StateReader, ACarriedPoseServesAsFarAsItIsKnown) {
+  const semantic::Home home = homeWithFridge();
+  const Drive drive(11);
+  for (const double sigma_m : {0.015, 0.08}) {
+    StateReader reader(home, {}, test::kinectCamera(), {}, 1);
+    Frames frames;
+    for (const int number : {3, 6, 9}) {
+      frames[number] = drive.frame(number, {0.0, 60.0 * kDegree});
+      reader.look(frames[number], carriedPose(number, sigma_m, 0.3 * sigma_m));
+    }
+    std::vector<camera::RgbdFrame> wanted;
+    for (const int number : reader.wanted()) {
+      wanted.push_back(frames.at(number));
+    }
+    ASSERT_EQ(wanted.size(), sigma_m < 0.05 ? 3U : 0U);
+    reader.read(wanted);
+    const auto readings = reader.conclude();
+    ASSERT_EQ(readings.size(), wanted.empty() ? 0U : 1U);
+    if (!readings.empty()) {
+      const JointReading& door = readings[0].joints[1];
+      ASSERT_EQ(door.stays.size(), 1U);
+      EXPECT_TRUE(door.stays[0].isFound());
+      EXPECT_NEAR(door.stays[0].span.value, 60.0 * kDegree, 3.0 * kDegree);
+    }
+  }
+}
+
 TEST(StateReader, OneImageAloneIsAReadingButNoEvent) {
   const semantic::Home home = homeWithFridge();
   const Drive drive(9);

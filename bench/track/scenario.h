@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "bench/mapping/child_process.h"
+#include "bench/track/routes.h"
+#include "tools/simulate/scene_script.h"
+
+namespace oikos::bench {
+
+struct ScenarioOptions {
+  std::filesystem::path oikos;
+  std::filesystem::path demo_home;
+  std::filesystem::path folder;  ///< to work in; map and drives of the same options that are in it are used again
+  double belief_mm = 5.0;
+  unsigned seed = 1;
+  int threads = 2;
+  std::vector<std::string> settings = {};  ///< KEY=VALUE for `oikos track`
+};
+
+struct ScenarioTally {
+  int recordings = 0;
+  int clean = 0;     ///< recordings without a shown change that was missed, and without a false event
+  int expected = 0;  ///< changes that at least two images show,
+  int found = 0;     ///< and of these, told rightly
+  int hardly_shown = 0;
+  int hardly_shown_found = 0;
+  int events = 0;
+  int false_events = 0;
+  std::vector<double> moments_s;  ///< of joints that moved in view: how far off the event is
+  int frames = 0;
+  double seconds = 0.0;
+  double best_rate = 0.0;
+  double cpu_s = 0.0;
+  double peak_mb = 0.0;
+};
+
+/// Drives of one home, whose joints go on from where the last drive has left them.
+class Scenario {
+ public:
+  /// Makes the home, and, unless the folder has it already, its map.
+  explicit Scenario(const ScenarioOptions& options);
+
+  void run(int number, ScenarioTally& tally);
+
+ private:
+  [[nodiscard]] std::filesystem::path home() const { return options_.folder / "home"; }
+  [[nodiscard]] std::filesystem::path drive(const std::string& name) const { return options_.folder / name; }
+  ChildRun must(std::vector<std::string> words) const;
+  void deploy() const;
+  void believe(simulate::SceneScript& script) const;
+  void simulate(const std::string& name, const simulate::SceneScript& script) const;
+  [[nodiscard]] simulate::SceneScript scriptOf(int number, const Route& route, const std::vector<StateChange>& changes);
+  [[nodiscard]] nlohmann::json evaluated(const std::string& name) const;
+  void judge(int number, const std::vector<StateChange>& changes, const nlohmann::json& before, const nlohmann::json& recording,
+             ScenarioTally& tally) const;
+
+  ScenarioOptions options_;
+  std::mt19937_64 random_;
+  States states_;
+};
+
+}  // namespace oikos::bench
