@@ -140,6 +140,26 @@ struct StateReader::Track {
     }
     return i;
   }
+  /// Images that have found the joint elsewhere than their span has it: misreadings, or a stay that was too short for the images read.
+  [[nodiscard]] std::vector<std::size_t> dissenters(const JointSpan& span, std::size_t joint,
+                                                    const registration::JointDecisionConfig& config) const {
+    std::vector<std::size_t> dissenters;
+    for (std::size_t i = span.first; i <= span.last; ++i) {
+      const registration::JointEstimate& estimate = shots[i].joints[joint];
+      const double same = estimate.evidence.is_turn ? config.window_deg * base::kRadPerDeg : config.window_m;
+      if (estimate.status == JointStatus::kFound && std::abs(estimate.value - span.value) > same) {
+        dissenters.push_back(i);
+      }
+    }
+    return dissenters;
+  }
+  /// Images read about this one, itself included.
+  [[nodiscard]] int readAbout(std::size_t shot, const std::vector<SeenFrame>& frames) const {
+    constexpr std::int64_t kAbout_ns = 500'000'000;
+    const auto stampOf = [&](const Shot& one) { return frames[static_cast<std::size_t>(one.index)].stamp_ns; };
+    return static_cast<int>(std::count_if(shots.begin(), shots.end(),
+                                          [&](const Shot& one) { return std::abs(stampOf(one) - stampOf(shots[shot])) <= kAbout_ns; }));
+  }
   /// What one image alone says: there is nothing to hold it against.
   [[nodiscard]] std::vector<JointSpan> loneSpan(std::size_t joint, const std::vector<SeenFrame>& frames) const {
     const registration::JointEstimate& estimate = shots.front().joints[joint];
@@ -229,8 +249,10 @@ void StateReader::chooseFirst() {
   }
 }
 
-/// Between images that disagree about a joint, nearer to the moment; and beside those that are alone with what they say.
+/// Between images that disagree about a joint, nearer to the moment; and beside those that are alone with what they say, whether it was
+/// believed or put down to a misreading.
 void StateReader::halve() {
+  constexpr int kEnough = 5;  // images about a moment, to tell a misreading from a short stay
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     Track& track = *tracks_[p];
     const std::vector<std::vector<JointSpan>> spans = track.spans(frames_, config_.fusion);
@@ -243,6 +265,11 @@ void StateReader::halve() {
         if (track.foundIn(span, j) == 1 && config_.change.min_images > 1) {
           const std::size_t witness = track.witnessOf(span, j);
           track.want(frameBeside(frames_, static_cast<int>(p), track.indices(), track.shots[witness].index));
+        }
+        for (const std::size_t dissenter : track.dissenters(span, j, config_.fusion.decision)) {
+          if (track.readAbout(dissenter, frames_) < kEnough) {
+            track.want(frameBeside(frames_, static_cast<int>(p), track.indices(), track.shots[dissenter].index));
+          }
         }
       }
     }
