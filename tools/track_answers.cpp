@@ -99,6 +99,44 @@ void printKnobs(const tracking::RecordingStates& states) {
   }
 }
 
+std::string millimetres(double length_m) {
+  return toFixedText(1000.0 * length_m, 0);
+}
+
+/// Handles that are elsewhere than home.xml has them.
+void printHandles(const tracking::RecordingStates& states) {
+  constexpr double kWorthTelling_m = 0.015;
+  for (const tracking::PieceReading& piece : states.pieces) {
+    for (const tracking::HandleReading& handle : piece.handles) {
+      if (handle.found.seen > 1 && handle.off_m.norm() > kWorthTelling_m) {
+        std::cout << "  handle " << handle.id << " is " << millimetres(handle.off_m.norm()) << " mm from where home.xml has it ("
+                  << millimetres(handle.off_m.x()) << ", " << millimetres(handle.off_m.y()) << ", " << millimetres(handle.off_m.z())
+                  << " in its own frame), in " << handle.found.seen << " of " << handle.found.images << " images\n";
+      }
+    }
+  }
+}
+
+Json handleJson(const tracking::HandleReading& handle) {
+  const registration::FusedHandle& found = handle.found;
+  const semantic::Pose pose = semantic::Pose::fromIsometry(found.T_part_handle);
+  Json json = {{"id", handle.id}, {"status", base::toString(found.status)}, {"images", found.images}, {"seen", found.seen}};
+  if (found.seen > 0 || found.is_summed) {
+    json["pose_part"] = {{"x_m", pose.position_m.x()},
+                         {"y_m", pose.position_m.y()},
+                         {"z_m", pose.position_m.z()},
+                         {"roll_deg", pose.roll_pitch_yaw_rad.x() / base::kRadPerDeg},
+                         {"pitch_deg", pose.roll_pitch_yaw_rad.y() / base::kRadPerDeg},
+                         {"yaw_deg", pose.roll_pitch_yaw_rad.z() / base::kRadPerDeg}};
+    json["sigma_m"] = std::sqrt(found.covariance.topLeftCorner<3, 3>().trace() / 3.0);
+    json["length_m"] = found.length_m;
+    json["off_m"] = {handle.off_m.x(), handle.off_m.y(), handle.off_m.z()};
+    json["off_deg"] = handle.off_rad / base::kRadPerDeg;
+    json["spread_m"] = found.spread_m;
+  }
+  return json;
+}
+
 Json knobsJson(const tracking::RecordingStates& states) {
   Json knobs = Json::array();
   for (const tracking::TrackedKnob& knob : states.knobs) {
@@ -143,11 +181,16 @@ Json piecesJson(const TrackedRecording& recording) {
       }
       joints.push_back({{"id", joint.id.value}, {"stays", std::move(stays)}});
     }
+    Json handles = Json::array();
+    for (const tracking::HandleReading& handle : piece.handles) {
+      handles.push_back(handleJson(handle));
+    }
     pieces.push_back({{"id", piece.id.value},
                       {"frames_in_view", piece.frames_in_view},
                       {"images", piece.images},
                       {"not_there", piece.not_there},
-                      {"joints", std::move(joints)}});
+                      {"joints", std::move(joints)},
+                      {"handles", std::move(handles)}});
   }
   return pieces;
 }
@@ -224,6 +267,7 @@ void printText(const TrackedRecording& recording, bool is_dry) {
   if (is_dry) {
     printReadings(states);
     printKnobs(states);
+    printHandles(states);
   }
   std::cout << "  " << recording.events.size() << (recording.events.size() == 1 ? " event" : " events")
             << (is_dry ? " would be written\n" : "\n");

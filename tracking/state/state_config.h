@@ -10,6 +10,7 @@
 #include "registration/scan.h"
 #include "tracking/furniture/moved_furniture.h"
 #include "tracking/state/knob_track_config.h"
+#include "tracking/state/piece_handles.h"
 
 namespace oikos::tracking {
 
@@ -99,6 +100,7 @@ struct StateConfig {
   ChangeTestConfig change;
   MovedFurnitureConfig furniture;  ///< of shiftable pieces
   KnobTrackConfig knobs;
+  HandleTrackConfig handles;
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -110,6 +112,7 @@ struct StateConfig {
     visitor("change", change);
     visitor("furniture", furniture);
     visitor("knobs", knobs);
+    visitor("handles", handles);
   }
   [[nodiscard]] std::vector<std::string> validate() const { return {}; }
 };

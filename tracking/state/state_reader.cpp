@@ -108,6 +108,7 @@ struct StateReader::Track {
   std::unique_ptr<registration::ArticulatedRegistration> registration;  ///< from the first image on,
   std::unique_ptr<render::Scene> about;                                 ///< and this, too
   std::set<int> wanted;                                                 ///< indices of the frames
+  std::unique_ptr<PieceHandles> handles;                                ///< and this
   std::vector<Shot> shots;                                              ///< in the order of time
   int frames_in_view = 0;
 
@@ -296,22 +297,24 @@ void StateReader::read(const std::vector<camera::RgbdFrame>& frames) {
     for (std::size_t f = 0; f < frames.size(); ++f) {
       const SeenFrame& frame = seen(frames[f].index);
       if (tracks_[piece]->wanted.erase(static_cast<int>(&frame - frames_.data())) > 0) {
-        registerIn(piece, frame, scans[f]);
+        registerIn(piece, frame, scans[f], frames[f].depth_m);
       }
     }
   });
 }
 
-void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const registration::Scan& scan) {
+void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const registration::Scan& scan, const cv::Mat& depth_m) {
   Track& track = *tracks_[piece];
   const ArticulatedPiece& of = pieces_[piece];
   if (!track.registration) {
     track.registration = std::make_unique<registration::ArticulatedRegistration>(of.model, config_.registration);
     track.about = std::make_unique<render::Scene>(surroundings_.sceneWithout(of));
+    track.handles = std::make_unique<PieceHandles>(of.model, config_.handles);
   }
   registration::ImageContext context = contextOf(frame, of);
   context.surroundings = viewOf(*track.about, scan.camera, frame.T_map_camera);
   registration::ArticulatedResult result = track.registration->run(scan, frame.T_map_camera, of.believed, context);
+  track.handles->add({depth_m, camera_, frame.T_map_camera}, result);
   const int index = static_cast<int>(&frame - frames_.data());
   const auto after = std::find_if(track.shots.begin(), track.shots.end(), [&](const Shot& shot) { return shot.index > index; });
   track.shots.insert(after, {index, result.status, {result.T_map_model, std::move(result.joint_values)}, std::move(result.joints)});
@@ -323,7 +326,7 @@ std::optional<registration::Standing> StateReader::standingIn(const camera::Rgbd
   const std::vector<Shot>& shots = tracks_[static_cast<std::size_t>(piece)]->shots;
   const auto find = [&] { return std::find_if(shots.begin(), shots.end(), [&](const Shot& shot) { return shot.index == index; }); };
   if (find() == shots.end()) {
-    registerIn(static_cast<std::size_t>(piece), of, registration::makeScan(frame.depth_m, camera_, config_.scan));
+    registerIn(static_cast<std::size_t>(piece), of, registration::makeScan(frame.depth_m, camera_, config_.scan), frame.depth_m);
   }
   const auto shot = find();
   return shot->base == registration::BaseStatus::kNotThere ? std::nullopt : std::optional(shot->standing);
@@ -336,7 +339,7 @@ std::vector<PieceReading> StateReader::conclude() const {
     if (track.frames_in_view == 0) {
       continue;
     }
-    PieceReading reading{pieces_[p].id, track.frames_in_view, static_cast<int>(track.shots.size()), 0, {}};
+    PieceReading reading{pieces_[p].id, track.frames_in_view, static_cast<int>(track.shots.size()), 0, {}, {}};
     for (const Shot& shot : track.shots) {
       reading.not_there += shot.base == registration::BaseStatus::kNotThere ? 1 : 0;
     }
@@ -351,6 +354,7 @@ std::vector<PieceReading> StateReader::conclude() const {
       }
       reading.joints.push_back(std::move(of_joint));
     }
+    reading.handles = track.handles ? track.handles->conclude() : std::vector<HandleReading>();
     readings.push_back(std::move(reading));
   }
   return readings;

@@ -15,6 +15,7 @@
 #include "semantic/model/home.h"
 #include "tracking/localisation/localiser.h"
 #include "tracking/state/articulated_pieces.h"
+#include "tracking/state/piece_handles.h"
 #include "tracking/state/piece_surroundings.h"
 #include "tracking/state/piece_views.h"
 #include "tracking/state/state_config.h"
@@ -48,6 +49,7 @@ struct PieceReading {
   int images = 0;     ///< that were registered,
   int not_there = 0;  ///< of these, that do not show it where it is believed to be
   std::vector<JointReading> joints;
+  std::vector<HandleReading> handles;
 };
 
 /// Not thread-safe; uses `threads` threads inside, on which the result does not depend.
@@ -89,7 +91,7 @@ class StateReader {
 
   void chooseFirst();
   void halve();
-  void registerIn(std::size_t piece, const SeenFrame& frame, const registration::Scan& scan);
+  void registerIn(std::size_t piece, const SeenFrame& frame, const registration::Scan& scan, const cv::Mat& depth_m);
   [[nodiscard]] registration::ImageContext contextOf(const SeenFrame& frame, const ArticulatedPiece& piece) const;
 
   camera::PinholeCamera camera_;

@@ -247,6 +247,28 @@ TEST(StateReader, ACarriedPoseServesAsFarAsItIsKnown) {
   }
 }
 
+/// home.xml has the lower door's handle 25 mm too high; the upper door opens meanwhile.
+TEST(StateReader, HandlesAreMeasuredOnTheirDoors) {
+  semantic::Home home = homeWithFridge();
+  std::vector<semantic::Handle>& handles = home.rooms[0].objects[0].edit().articulation->handles;
+  ASSERT_EQ(handles.size(), 2U);
+  handles[0].T_part_handle.position_m.z() += 0.025;
+  Frames frames;
+  const Drive drive(21);
+  for (int i = 0; i < kFrames; ++i) {
+    frames[i] = drive.frame(i, {0.0, i < 7 ? 0.0 : 40.0 * kDegree});
+  }
+  const RecordingStates states = readAll(home, frames, 2);
+  ASSERT_EQ(states.pieces.size(), 1U);
+  ASSERT_EQ(states.pieces[0].handles.size(), 2U);
+  for (const HandleReading& handle : states.pieces[0].handles) {
+    EXPECT_GE(handle.found.seen, 2) << handle.id;
+    const Eigen::Vector3d truth_m(0.0, 0.0, handle.id == handles[0].id ? -0.025 : 0.0);
+    EXPECT_LT((handle.off_m - truth_m).norm(), 0.01) << handle.id << " " << handle.off_m.transpose();
+    EXPECT_LT(handle.off_rad, 3.0 * kDegree) << handle.id;
+  }
+}
+
 TEST(StateReader, OneImageAloneIsAReadingButNoEvent) {
   const semantic::Home home = homeWithFridge();
   const Drive drive(9);
