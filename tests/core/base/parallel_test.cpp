@@ -66,5 +66,28 @@ TEST(ParallelFor, RethrowsTheFailureOfTheLowestIndexAfterAllHaveRun) {
   }
 }
 
+TEST(ParallelFor, NestsAndServesManyCallersAtOnce) {
+  std::vector<std::jthread> callers;
+  std::atomic<int> calls = 0;
+  for (int caller = 0; caller < 4; ++caller) {
+    callers.emplace_back([&] {
+      for (int round = 0; round < 50; ++round) {
+        parallelFor(5, 3, [&](int) { parallelFor(7, 2, [&](int) { ++calls; }); });
+      }
+    });
+  }
+  callers.clear();
+  EXPECT_EQ(calls, 4 * 50 * 5 * 7);
+}
+
+/// More calls than helpers have come to: what they find later belongs to callers that have gone.
+TEST(ParallelFor, ShortCallsInARowLeaveNothingBehind) {
+  for (int round = 0; round < 20'000; ++round) {
+    int slots[3] = {0, 0, 0};
+    parallelFor(3, 3, [&](int i) { slots[i] = i + 1; });
+    ASSERT_EQ(slots[0] + slots[1] + slots[2], 6);
+  }
+}
+
 }  // namespace
 }  // namespace oikos::base
