@@ -36,9 +36,12 @@ Bar Bar::from(const BarVector& vector) {
   return {vector[0], vector[1], vector[2], vector[3], vector[4], vector[5], vector[6], vector[7]};
 }
 
-BarReading readBar(const Bar& bar, double along_m, double across_m) {
-  const double c = std::cos(bar.roll_rad);
-  const double s = std::sin(bar.roll_rad);
+BlurredBar::BlurredBar(const Bar& bar) : bar_(bar), cos_roll_(std::cos(bar.roll_rad)), sin_roll_(std::sin(bar.roll_rad)) {}
+
+BarReading BlurredBar::at(double along_m, double across_m) const {
+  const Bar& bar = bar_;
+  const double c = cos_roll_;
+  const double s = sin_roll_;
   const double dz = along_m - bar.along_m;
   const double dy = across_m - bar.across_m;
   const double z = c * dz - s * dy;
@@ -48,6 +51,10 @@ BarReading readBar(const Bar& bar, double along_m, double across_m) {
   BarReading reading;
   reading.cover = lengthwise.value * crosswise.value;
   reading.height_m = bar.offset_m + bar.height_m * reading.cover;
+  if (reading.cover <= 0.0) {
+    reading.derivative[4] = 1.0;
+    return reading;
+  }
   const double by_z = bar.height_m * lengthwise.by_x * crosswise.value;
   const double by_y = bar.height_m * lengthwise.value * crosswise.by_x;
   reading.derivative << -c * by_z - s * by_y, s * by_z - c * by_y, -y * by_z + z * by_y, reading.cover, 1.0,

@@ -38,6 +38,17 @@ struct BarReading {
   double cover = 0.0;                        ///< 0 beside the bar, 1 where nothing else is seen
   BarVector derivative = BarVector::Zero();  ///< in the order of Bar
 };
-[[nodiscard]] BarReading readBar(const Bar& bar, double along_m, double across_m);
+
+/// A bar to be read at many places.
+class BlurredBar {
+ public:
+  explicit BlurredBar(const Bar& bar);
+  [[nodiscard]] BarReading at(double along_m, double across_m) const;
+
+ private:
+  Bar bar_;
+  double cos_roll_;
+  double sin_roll_;
+};
 
 }  // namespace oikos::registration

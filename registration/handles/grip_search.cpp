@@ -19,7 +19,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSeenOfBar = 0.785;     // of a round bar's radius, what its visible side stands out in the mean
 constexpr double kHeightSigma_m = 0.01;  // wide: how much of its height a sensor shows is not known
-constexpr int kMostInGrid = 900;         // readings
+constexpr int kMostInGrid = 900;         // readings; they repeat each other
 constexpr double kLeastBlur = 0.75;      // of the readings' spacing: an edge between two of them could not be moved
 constexpr double kMostHigher_m = 0.015;  // than believed: a hair that stands out by a hand looks much like a bar
 constexpr double kHuber = 2.5;
@@ -42,73 +42,108 @@ std::vector<GripReading> everyNth(const std::vector<GripReading>& readings, std:
   return fewer;
 }
 
+constexpr double kStepAlong_m = 0.006;
+constexpr double kStepAcross_m = 0.004;
+
+/// From -n to n times a step, as far as `reach_m`.
+std::vector<double> stepsOf(double reach_m, double step_m) {
+  const int n = static_cast<int>(std::floor(reach_m / step_m));
+  std::vector<double> steps;
+  for (int i = -n; i <= n; ++i) {
+    steps.push_back(i * step_m);
+  }
+  return steps;
+}
+
 /// Weighted least squares over the height of the grip and the offset of its front, at each place of a grid.
 class Grid {
  public:
-  Grid(const GripReadings& grip, const Bar& believed, const GripConfig& config) : believed_(believed), config_(config) {
+  Grid(const GripReadings& grip, const Bar& believed, const GripConfig& config)
+      : believed_(believed),
+        config_(config),
+        steps_along_m_(stepsOf(config.search_m, kStepAlong_m)),
+        steps_across_m_(stepsOf(config.search_m, kStepAcross_m)) {
     const std::size_t n = 1 + grip.readings.size() / kMostInGrid;
-    readings_ = everyNth(grip.readings, n);
+    const std::vector<GripReading> readings = everyNth(grip.readings, n);
     const double share = std::min(1.0, grip.share * static_cast<double>(n));
     weight_ = share / (grip.sigma_m * grip.sigma_m);
-    front_prior_ = 1.0 / (weight_ * config.offset_sigma_m * config.offset_sigma_m);
-    for (const GripReading& reading : readings_) {
-      sum_ += reading.height_m;
+    const auto count = static_cast<Eigen::Index>(readings.size());
+    along_m_.resize(count);
+    across_m_.resize(count);
+    height_m_.resize(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const GripReading& reading = readings[static_cast<std::size_t>(i)];
+      along_m_[i] = reading.along_m;
+      across_m_[i] = reading.across_m;
+      height_m_[i] = reading.height_m;
     }
+    readings_ = static_cast<double>(count) + 1.0 / (weight_ * config.offset_sigma_m * config.offset_sigma_m);
   }
 
-  [[nodiscard]] PlaceEvidence evidenceAt(double along_m, double across_m, double blur_m) const {
-    double covers = 0.0;
-    double squares = 0.0;
-    double products = 0.0;
-    for (const GripReading& reading : readings_) {
-      const double cover = covered(reading.along_m - along_m, believed_.half_length_m, blur_m) *
-                           covered(reading.across_m - across_m, believed_.half_width_m, blur_m);
-      covers += cover;
-      squares += cover * cover;
-      products += cover * reading.height_m;
+  /// Row by row: along, then across. A reading is covered as far along the bar as across it, so that both are only worked out once.
+  [[nodiscard]] std::vector<PlaceEvidence> evidence(double blur_m) const {
+    const Eigen::ArrayXXd along = coversOf(along_m_, steps_along_m_, believed_.half_length_m, blur_m);
+    const Eigen::ArrayXXd across = coversOf(across_m_, steps_across_m_, believed_.half_width_m, blur_m);
+    const double sum_m = height_m_.sum();
+    std::vector<PlaceEvidence> places;
+    for (Eigen::Index i = 0; i < along.cols(); ++i) {
+      for (Eigen::Index j = 0; j < across.cols(); ++j) {
+        const Eigen::ArrayXd cover = along.col(i) * across.col(j);
+        const double covers = cover.sum();
+        const double seen = cover.square().sum() - covers * covers / readings_;
+        const double standing_out = (cover * height_m_).sum() - covers * sum_m / readings_;
+        places.push_back({steps_along_m_[static_cast<std::size_t>(i)], steps_across_m_[static_cast<std::size_t>(j)], weight_ * standing_out,
+                          weight_ * std::max(0.0, seen)});
+      }
     }
-    const double n = static_cast<double>(readings_.size()) + front_prior_;
-    const double seen = squares - covers * covers / n;
-    const double standing_out = products - covers * sum_ / n;
-    return {along_m, across_m, weight_ * standing_out, weight_ * std::max(0.0, seen)};
+    return places;
   }
 
-  [[nodiscard]] GridPlace at(double along_m, double across_m, double blur_m) const {
-    const PlaceEvidence evidence = evidenceAt(along_m, across_m, blur_m);
-    GridPlace place{along_m, across_m, blur_m, 0.0, 0.0};
+  [[nodiscard]] GridPlace placeOf(const PlaceEvidence& evidence, double blur_m) const {
+    GridPlace place{evidence.along_m, evidence.across_m, blur_m, 0.0, 0.0};
     if (evidence.seen > 1e-9 * weight_ && evidence.standing_out > 0.0) {
       const double height_m = std::min(evidence.standing_out / evidence.seen, config_.max_reach_m);
       place.gain = height_m * (evidence.standing_out - 0.5 * height_m * evidence.seen);
     }
-    place.score = place.gain - 0.5 * (along_m * along_m + across_m * across_m) / (config_.place_sigma_m * config_.place_sigma_m);
+    place.score = place.gain -
+                  0.5 * (place.along_m * place.along_m + place.across_m * place.across_m) / (config_.place_sigma_m * config_.place_sigma_m);
     return place;
   }
 
  private:
+  /// A column for each step.
+  [[nodiscard]] static Eigen::ArrayXXd coversOf(const Eigen::ArrayXd& places_m, const std::vector<double>& steps_m, double half_m,
+                                                double blur_m) {
+    Eigen::ArrayXXd covers(places_m.size(), static_cast<Eigen::Index>(steps_m.size()));
+    for (Eigen::Index i = 0; i < covers.cols(); ++i) {
+      for (Eigen::Index r = 0; r < covers.rows(); ++r) {
+        covers(r, i) = covered(places_m[r] - steps_m[static_cast<std::size_t>(i)], half_m, blur_m);
+      }
+    }
+    return covers;
+  }
+
   const Bar& believed_;
   const GripConfig& config_;
-  std::vector<GripReading> readings_;
+  std::vector<double> steps_along_m_;
+  std::vector<double> steps_across_m_;
+  Eigen::ArrayXd along_m_;
+  Eigen::ArrayXd across_m_;
+  Eigen::ArrayXd height_m_;
   double weight_ = 0.0;
-  double front_prior_ = 0.0;  ///< in readings
-  double sum_ = 0.0;
+  double readings_ = 0.0;  ///< with the prior of the front's offset, in readings
 };
-
-constexpr double kStepAlong_m = 0.006;
-constexpr double kStepAcross_m = 0.004;
 
 /// Best places of the grid, apart from each other.
 std::vector<GridPlace> bestOfGrid(const GripReadings& grip, const Bar& believed, const GripConfig& config) {
   const Grid grid(grip, believed, config);
-  const int along = static_cast<int>(std::floor(config.search_m / kStepAlong_m));
-  const int across = static_cast<int>(std::floor(config.search_m / kStepAcross_m));
   std::vector<GridPlace> places;
   for (const double blur_px : {config.sharp_blur_px, config.wide_blur_px}) {
-    for (int i = -along; i <= along; ++i) {
-      for (int j = -across; j <= across; ++j) {
-        const GridPlace place = grid.at(i * kStepAlong_m, j * kStepAcross_m, blur_px * grip.pixel_m);
-        if (place.gain > 0.5 * config.min_gain) {
-          places.push_back(place);
-        }
+    const double blur_m = blur_px * grip.pixel_m;
+    for (const PlaceEvidence& evidence : grid.evidence(blur_m)) {
+      const GridPlace place = grid.placeOf(evidence, blur_m);
+      if (place.gain > 0.5 * config.min_gain) {
+        places.push_back(place);
       }
     }
   }
@@ -221,10 +256,10 @@ class BarFit {
 
   [[nodiscard]] Sums sumUp(const BarVector& vector) const {
     Sums sums;
-    const Bar bar = Bar::from(vector);
+    const BlurredBar bar(Bar::from(vector));
     const double weight = grip_.share / (grip_.sigma_m * grip_.sigma_m);
     for (const GripReading& reading : readings_near_) {
-      BarReading expected = readBar(bar, reading.along_m, reading.across_m);
+      BarReading expected = bar.at(reading.along_m, reading.across_m);
       const double residual_m = reading.height_m - expected.height_m;
       const double ratio = residual_m / grip_.sigma_m;
       sums.data_cost += grip_.share * huber(ratio);
@@ -239,10 +274,10 @@ class BarFit {
         expected.derivative[6] = 0.0;
       }
       sums.readings += expected.cover >= 0.5 ? 1 : 0;
-      sums.H.selfadjointView<Eigen::Lower>().rankUpdate(expected.derivative, robust);
-      sums.g += robust * residual_m * expected.derivative;
+      const BarVector weighted = robust * expected.derivative;
+      sums.H.noalias() += weighted * expected.derivative.transpose();
+      sums.g += residual_m * weighted;
     }
-    sums.H = BarMatrix(sums.H.selfadjointView<Eigen::Lower>());
     const BarVector off = offOf(vector);
     sums.H.diagonal() += prior_.information;
     sums.g -= prior_.information.cwiseProduct(off);
@@ -282,8 +317,7 @@ GripPlace refined(const GripBelief& belief, const GridPlace& start, const GripRe
     bar.along_m = start.along_m;
     bar.across_m = start.across_m;
     bar.blur_m = blur_px * readings.pixel_m;
-    BarFit fit(belief, bar, readings, config);
-    const GripPlace place = fit.refine(bar);
+    const GripPlace place = BarFit(belief, bar, readings, config).refine(bar);
     if (best.gain <= 0.0 || place.score > best.score) {
       best = place;
     }
@@ -384,16 +418,7 @@ std::vector<GripPlace> searchGrip(const GripBelief& belief, const GripReadings& 
 
 std::vector<PlaceEvidence> evidenceOf(const GripBelief& belief, const GripReadings& readings, const GripConfig& config) {
   const Bar believed = believedBar(belief);
-  const Grid grid(readings, believed, config);
-  const int along = static_cast<int>(std::floor(config.search_m / kStepAlong_m));
-  const int across = static_cast<int>(std::floor(config.search_m / kStepAcross_m));
-  std::vector<PlaceEvidence> places;
-  for (int i = -along; i <= along; ++i) {
-    for (int j = -across; j <= across; ++j) {
-      places.push_back(grid.evidenceAt(i * kStepAlong_m, j * kStepAcross_m, config.wide_blur_px * readings.pixel_m));
-    }
-  }
-  return places;
+  return Grid(readings, believed, config).evidence(config.wide_blur_px * readings.pixel_m);
 }
 
 }  // namespace oikos::registration

@@ -38,8 +38,7 @@ bool PieceHandles::isPlaced(int part, const registration::ArticulatedResult& reg
     return false;
   }
   return part == root_ || std::any_of(registered.joints.begin(), registered.joints.end(), [&](const registration::JointEstimate& joint) {
-           return model_.joints[static_cast<std::size_t>(joint.joint)].child == part &&
-                  joint.status == registration::JointStatus::kFound;
+           return model_.joints[static_cast<std::size_t>(joint.joint)].child == part && joint.status == registration::JointStatus::kFound;
          });
 }
 

@@ -27,9 +27,9 @@ struct HandleTrackConfig {
 /// What a recording says of a handle.
 struct HandleReading {
   std::string id;
-  registration::FusedHandle found;                    ///< on its part
-  Eigen::Vector3d off_m = Eigen::Vector3d::Zero();    ///< from where it is believed, in its believed frame (x: away from the front)
-  double off_rad = 0.0;                               ///< between the two directions of the grip
+  registration::FusedHandle found;                  ///< on its part
+  Eigen::Vector3d off_m = Eigen::Vector3d::Zero();  ///< from where it is believed, in its believed frame (x: away from the front)
+  double off_rad = 0.0;                             ///< between the two directions of the grip
 };
 
 /// The handles of one model; recessed ones are left out, as nothing is to be seen of them. Not thread-safe.
@@ -50,7 +50,7 @@ class PieceHandles {
   model::ArticulatedModel model_;  ///< without meshes
   int root_ = 0;
   registration::HandleFinder finder_;
-  std::vector<int> parts_;  ///< that carry handles, ascending
+  std::vector<int> parts_;                           ///< that carry handles, ascending
   std::vector<registration::HandleFusion> fusions_;  ///< by handle of the model
 };
 

@@ -106,13 +106,14 @@ TEST(BlurredBar, DerivativesAreThoseOfDifferences) {
   constexpr double kStep = 1e-7;
   for (const auto& [along_m, across_m] :
        {std::pair(0.01, 0.001), std::pair(0.083, 0.0), std::pair(-0.077, -0.01), std::pair(0.03, 0.006)}) {
-    const BarReading reading = readBar(bar, along_m, across_m);
+    const BarReading reading = BlurredBar(bar).at(along_m, across_m);
     for (int i = 0; i < 8; ++i) {
       BarVector more = bar.vector();
       BarVector less = bar.vector();
       more[i] += kStep;
       less[i] -= kStep;
-      const double difference = readBar(Bar::from(more), along_m, across_m).height_m - readBar(Bar::from(less), along_m, across_m).height_m;
+      const double difference =
+          BlurredBar(Bar::from(more)).at(along_m, across_m).height_m - BlurredBar(Bar::from(less)).at(along_m, across_m).height_m;
       EXPECT_NEAR(reading.derivative[i], difference / (2.0 * kStep), 1e-6) << i << " at " << along_m << ", " << across_m;
     }
   }
