@@ -65,7 +65,8 @@ class Refiner {
       return answer;
     }
     evaluate(best_, prior_.T_map_camera);
-    if (isWide(prior_, config_.search) || best_.contradictsAnywhere() || best_.solution.fit.overlap < config_.good_overlap) {
+    const bool is_doubtful = best_.contradictsAnywhere() || best_.solution.fit.overlap < config_.good_overlap;
+    if (isWide(prior_, config_.search) || (is_doubtful && hasOtherStarts(prior_, config_.search))) {
       tryOtherStarts();
     }
     answer.rounds = 1;

@@ -73,6 +73,10 @@ std::vector<std::string> StartSearchConfig::validate() const {
       .messages();
 }
 
+bool hasOtherStarts(const CameraPrior& prior, const StartSearchConfig& config) {
+  return std::numbers::sqrt2 * config.reach * prior.sigma_m >= kSame_m || config.turn_reach * prior.sigma_rad >= kSame_rad;
+}
+
 bool isWide(const CameraPrior& prior, const StartSearchConfig& config) {
   return prior.sigma_m > config.wide_m || prior.sigma_rad > config.wide_deg * kDegree;
 }

@@ -42,6 +42,9 @@ struct StartSearchConfig {
 
 [[nodiscard]] bool isWide(const CameraPrior& prior, const StartSearchConfig& config);
 
+/// Whether a search reaches poses that do not count as the same as the prior: after a map has found the camera, it does not.
+[[nodiscard]] bool hasOtherStarts(const CameraPrior& prior, const StartSearchConfig& config);
+
 /// What readings say of the furniture from some pose.
 struct Readings {
   int all = 0;      ///< in the scan

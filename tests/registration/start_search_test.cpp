@@ -24,6 +24,18 @@ TEST(StartSearch, APriorIsWideByItsPlaceOrItsHeading) {
   EXPECT_TRUE(isWide(prior, {}));
 }
 
+TEST(StartSearch, ANarrowPriorHasNoOtherStarts) {
+  CameraPrior prior;
+  prior.sigma_m = 0.02;  // as after a map
+  prior.sigma_rad = 1.0 * kDegree;
+  EXPECT_FALSE(hasOtherStarts(prior, {}));
+  prior.sigma_rad = 3.0 * kDegree;
+  EXPECT_TRUE(hasOtherStarts(prior, {}));
+  prior.sigma_m = 0.05;
+  prior.sigma_rad = 1.0 * kDegree;
+  EXPECT_TRUE(hasOtherStarts(prior, {}));
+}
+
 TEST(StartSearch, WhatIsSeenThroughWeighsMoreThanWhatIsSeen) {
   const CameraPrior prior;
   const StartSearchConfig config;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 
 #include "core/base/parallel.h"
 #include "core/recording/frame_stream.h"
@@ -18,15 +19,23 @@ double secondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-void locate(const recording::Recording& recording, Localiser& localiser, StateReader& reader, KnobWatch& knobs, int stride,
-            const base::ProgressSink& progress, RecordingStates& states) {
+/// Frames that were decoded already, of a recording that is not longer than this: an answer on demand does not wait for them twice.
+constexpr int kKeptFrames = 8;
+using KeptFrames = std::map<int, camera::RgbdFrame>;
+
+void locate(const recording::Recording& recording, const StateTools& tools, int stride, KnobWatch& knobs, KeptFrames& kept,
+            RecordingStates& states) {
   recording::FrameStream stream(recording, {.stride = stride, .capacity = 4});
   while (const auto frame = stream.next()) {
-    const LocatedPose pose = localiser.addUnrefined(*frame);
+    const LocatedPose pose = tools.localiser.addUnrefined(*frame);
     states.found += pose.isFound() ? 1 : 0;
-    reader.look(*frame, pose);
+    tools.reader.look(*frame, pose);
     knobs.look(*frame, pose);
-    base::reportProgress(progress, {"locating", stream.statistics().read + stream.statistics().unreadable, stream.statistics().listed});
+    if (recording.frameCount() <= kKeptFrames) {
+      kept.emplace(frame->index, *frame);
+    }
+    base::reportProgress(tools.progress,
+                         {"locating", stream.statistics().read + stream.statistics().unreadable, stream.statistics().listed});
   }
   states.located = stream.statistics().read;
   states.unreadable = stream.statistics().unreadable;
@@ -44,19 +53,21 @@ void refine(const camera::RgbdFrame& frame, const Localiser& localiser, StateRea
 }
 
 /// All that the reader wants at this time, a few at once.
-void readWanted(const recording::Recording& recording, const std::vector<int>& wanted, const Localiser& localiser, StateReader& reader,
-                int threads, const base::ProgressSink& progress) {
+void readWanted(const recording::Recording& recording, const std::vector<int>& wanted, const KeptFrames& kept, const StateTools& tools) {
   constexpr std::size_t kAtOnce = 8;
   for (std::size_t begin = 0; begin < wanted.size(); begin += kAtOnce) {
     std::vector<camera::RgbdFrame> frames(std::min(kAtOnce, wanted.size() - begin));
-    base::parallelFor(static_cast<int>(frames.size()), threads, [&](int i) {
-      frames[static_cast<std::size_t>(i)] = recording.read(wanted[begin + static_cast<std::size_t>(i)], recording::Channels::kGray);
+    base::parallelFor(static_cast<int>(frames.size()), tools.threads, [&](int i) {
+      const int number = wanted[begin + static_cast<std::size_t>(i)];
+      const auto found = kept.find(number);
+      frames[static_cast<std::size_t>(i)] = found != kept.end() ? found->second : recording.read(number, recording::Channels::kGray);
     });
     for (const camera::RgbdFrame& frame : frames) {
-      refine(frame, localiser, reader);
+      refine(frame, tools.localiser, tools.reader);
     }
-    reader.read(frames);
-    base::reportProgress(progress, {"reading doors and drawers", static_cast<int>(begin + frames.size()), static_cast<int>(wanted.size())});
+    tools.reader.read(frames);
+    base::reportProgress(tools.progress,
+                         {"reading doors and drawers", static_cast<int>(begin + frames.size()), static_cast<int>(wanted.size())});
   }
 }
 
@@ -125,11 +136,12 @@ RecordingStates readStates(const recording::Recording& recording, const StateToo
   const Clock::time_point begin = Clock::now();
   const int stride = strideOf(recording, tools.config.frames.most_hz);
   KnobWatch knobs(tools.reader.pieces(), recording.camera(), tools.config.knobs, tools.config.frames, tools.threads);
-  locate(recording, tools.localiser, tools.reader, knobs, stride, tools.progress, states);
+  KeptFrames kept;
+  locate(recording, tools, stride, knobs, kept, states);
   states.locating_s = secondsSince(begin);
   const Clock::time_point located = Clock::now();
   for (std::vector<int> wanted = tools.reader.wanted(); !wanted.empty(); wanted = tools.reader.wanted()) {
-    readWanted(recording, wanted, tools.localiser, tools.reader, tools.threads, tools.progress);
+    readWanted(recording, wanted, kept, tools);
   }
   readKnobs(recording, tools, knobs);
   states.knobs = knobs.conclude();
