@@ -250,6 +250,34 @@ TEST_F(Track, WhatIsKilledGoesOnWhereItStopped) {
   }
 }
 
+/// Two programs at once on one home, each with a recording of its own.
+TEST_F(Track, WhatTwoTellAtOnceIsAllInTheHistoryOnce) {
+  for (const int head_start_ms : {0, 40, 200}) {
+    fs::remove_all(home_);
+    SetUp();
+    Process one({oikosBinary(), "track", home_.string(), drive("second"), "--json"});
+    one.hasEndedWithin(std::chrono::milliseconds(head_start_ms));
+    Process other({oikosBinary(), "track", home_.string(), drive("third"), "--json"});
+    for (Process* const run : {&one, &other}) {
+      const ProcessResult result = run->finish();
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_EQ(Json::parse(result.out)["recordings"][0]["status"], "tracked") << result.out;
+      EXPECT_EQ(Json::parse(result.out)["recordings"][0]["events"].size(), 2U) << result.out;
+    }
+    std::map<std::string, std::set<std::string>> subjects;
+    const std::vector<semantic::Event> all = events();
+    for (const semantic::Event& event : all) {
+      subjects[event.recording].insert(event.subject);
+    }
+    EXPECT_EQ(all.size(), 4U) << head_start_ms;
+    EXPECT_EQ(subjects["second"], (std::set<std::string>{"drawers-drawer_0-joint", "fridge-door-joint"})) << head_start_ms;
+    EXPECT_EQ(subjects["third"].size(), 2U) << head_start_ms;  // which the other is depends on who was first: the drawer, or the fridge
+    EXPECT_TRUE(subjects["third"].contains("sink-cupboard-left_door-joint")) << head_start_ms;
+    EXPECT_EQ(Json::parse(track({drive("second"), "--json"}).out)["recordings"][0]["status"], "tracked before");
+    EXPECT_EQ(runOikos({"check", home_.string()}).exit_code, 0);
+  }
+}
+
 TEST_F(Track, ARunningDaemonSeesIt) {
   const DaemonProcess daemon(home_);
   HttpConnection stream(daemon.port());

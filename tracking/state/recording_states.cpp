@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/recording/frame_stream.h"
+#include "tracking/state/base_check.h"
 
 namespace oikos::tracking {
 
@@ -88,7 +89,8 @@ void readKnobs(const recording::Recording& recording, const StateTools& tools, K
 }
 
 /// Each shiftable piece in the views that are best for it.
-std::vector<FurniturePlace> placesOf(const recording::Recording& recording, const StateTools& tools) {
+std::vector<FurniturePlace> placesOf(const recording::Recording& recording, const StateTools& tools,
+                                     const std::vector<PieceReading>& pieces) {
   std::vector<FurnitureView> frames;
   for (const SeenFrame& seen : tools.reader.frames()) {
     if (seen.source != PoseSource::kCarried) {
@@ -111,8 +113,11 @@ std::vector<FurniturePlace> placesOf(const recording::Recording& recording, cons
         scans.push_back(halvedScan(frame.depth_m, recording.camera(), tools.reader.seen(view.frame).T_map_camera));
       }
       if (const auto place = placeOf(tools.home, tools.home_folder, object.id, scans, config)) {
-        places.push_back(
-            {object.id, place->T_map_after, place->views, place->spread_m, place->fit, views.front().stamp_ns, views.front().frame});
+        const FurniturePlace found{object.id,  place->T_map_after,     place->views,       place->spread_m,
+                                   place->fit, views.front().stamp_ns, views.front().frame};
+        if (!isRefuted(found, object, pieces)) {
+          places.push_back(found);
+        }
       }
     }
   }
@@ -149,7 +154,7 @@ RecordingStates readStates(const recording::Recording& recording, const StateToo
   for (const PieceReading& piece : states.pieces) {
     states.registrations += piece.images;
   }
-  states.furniture = placesOf(recording, tools);
+  states.furniture = placesOf(recording, tools, states.pieces);
   states.reading_s = secondsSince(located);
   return states;
 }
