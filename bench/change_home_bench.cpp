@@ -11,6 +11,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -33,6 +34,8 @@ using Json = nlohmann::json;
 struct Options {
   fs::path oikos = OIKOS_BUILT_BINARY;
   int pairs = 4;
+  std::vector<int> only;  ///< numbers of pairs; none: all of `pairs`
+  fs::path keep;          ///< where recordings and maps stay, and are taken from; none: they are deleted
   double belief_mm = 5.0;
   unsigned seed = 1;
 };
@@ -153,6 +156,28 @@ void judgeBoxes(const Json& changes, const std::vector<Move>& shifted, const Mov
   score.chairs_new += is_new ? 1 : 0;
 }
 
+/// Simulates both drives and maps the first, where that was not kept; what the second one says goes to a copy.
+Json extendByPair(const fs::path& pair, const std::vector<std::string>& changes, unsigned seed, const Options& options) {
+  const fs::path home = pair / "home";
+  const std::string oikos = options.oikos.string();
+  const std::string first = (pair / "first").string();
+  const std::string second = (pair / "second").string();
+  if (!fs::exists(home / "map")) {
+    writeLivingRoom(home);
+    const auto simulate = [&](const fs::path& scene, const std::string& recording) {
+      fs::remove_all(recording);
+      mustRun({oikos, "simulate", scene.string(), "--out", recording, "--quiet", "--seed", std::to_string(seed)}, pair / "out");
+    };
+    simulate(writeScene(home, "first", {}, options.belief_mm / 1000.0), first);
+    simulate(writeScene(home, "second", changes, options.belief_mm / 1000.0), second);
+    mustRun({oikos, "map", first, "--out", home.string(), "--quiet"}, pair / "out");
+  }
+  const fs::path extended = pair / "extended";
+  fs::remove_all(extended);
+  fs::copy(home, extended, fs::copy_options::recursive);
+  return Json::parse(mustRun({oikos, "map", second, "--out", extended.string(), "--extend", "--quiet", "--json"}, pair / "out").out);
+}
+
 void runPair(int number, const Options& options, const fs::path& folder, Score& score) {
   std::mt19937_64 random(options.seed * 1'000'003 + static_cast<std::uint64_t>(number));
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -169,23 +194,8 @@ void runPair(int number, const Options& options, const fs::path& folder, Score& 
     changes.push_back(chair.text());
     changes.push_back("living-door-door-joint " + base::toFixedText(60.0 + 30.0 * share(random), 1) + " deg");
   }
-  const fs::path home = folder / ("home" + std::to_string(number));
-  writeLivingRoom(home);
-  const std::string oikos = options.oikos.string();
-  const std::string first = (folder / "first").string();
-  const std::string second = (folder / "second").string();
-  fs::remove_all(first);
-  fs::remove_all(second);
-  const std::string seed = std::to_string(options.seed * 1000 + static_cast<unsigned>(number));
-  mustRun(
-      {oikos, "simulate", writeScene(home, "first", {}, options.belief_mm / 1000.0).string(), "--out", first, "--quiet", "--seed", seed},
-      folder / "out");
-  mustRun({oikos, "simulate", writeScene(home, "second", changes, options.belief_mm / 1000.0).string(), "--out", second, "--quiet",
-           "--seed", seed},
-          folder / "out");
-  mustRun({oikos, "map", first, "--out", home.string(), "--quiet"}, folder / "out");
-  const Json answer =
-      Json::parse(mustRun({oikos, "map", second, "--out", home.string(), "--extend", "--quiet", "--json"}, folder / "out").out);
+  const fs::path pair = folder / ("pair" + std::to_string(number));
+  const Json answer = extendByPair(pair, changes, options.seed * 1000 + static_cast<unsigned>(number), options);
   std::printf("pair %d, %s: %d keyframes and %d more, %zu boxes\n", number, is_changed ? "changed" : "unchanged",
               answer["earlier_keyframes"].get<int>(), answer["keyframes"].get<int>() - answer["earlier_keyframes"].get<int>(),
               answer["changes"].size());
@@ -195,8 +205,14 @@ void runPair(int number, const Options& options, const fs::path& folder, Score& 
   } else {
     ++score.unchanged_pairs;
     score.false_boxes += static_cast<int>(answer["changes"].size());
+    for (const Json& change : answer["changes"]) {
+      std::printf("  false box: %s\n", change.dump().c_str());
+    }
   }
   std::fflush(stdout);
+  if (options.keep.empty()) {
+    fs::remove_all(pair);
+  }
 }
 
 void report(const Score& score) {
@@ -217,14 +233,20 @@ int main(int argc, char** argv) {
   CLI::App app("Changes that oikos map --extend tells, in simulated pairs of drives", "change_home_bench");
   app.add_option("--oikos", options.oikos, "the program to run")->check(CLI::ExistingFile);
   app.add_option("--pairs", options.pairs, "every other one of an unchanged room");
+  app.add_option("--only", options.only, "numbers of pairs, instead of the first --pairs")->delimiter(',');
+  app.add_option("--keep", options.keep, "a folder in which recordings and maps stay, and from which they are taken");
   app.add_option("--belief-mm", options.belief_mm, "standard deviation of believed dimensions and places");
   app.add_option("--seed", options.seed);
   CLI11_PARSE(app, argc, argv);
   try {
     const test::TemporaryFolder folder;
     Score score;
-    for (int pair = 0; pair < options.pairs; ++pair) {
-      runPair(pair, options, folder.path(), score);
+    if (options.only.empty()) {
+      options.only.resize(static_cast<std::size_t>(std::max(0, options.pairs)));
+      std::iota(options.only.begin(), options.only.end(), 0);
+    }
+    for (const int pair : options.only) {
+      runPair(pair, options, options.keep.empty() ? folder.path() : options.keep, score);
     }
     report(score);
     return 0;

@@ -238,7 +238,7 @@ void run(const Options& options, const fs::path& data) {
   print("nothing", refineAll(all, asked, config.landmarks, recording->camera(), options.pictures, options.is_verbose));
   for (const std::string& id : options.leaves_out ? all.ids() : std::vector<std::string>()) {
     registration::LandmarkScene fewer = landmarksWithout(home, folder, config.furniture, id);
-    print("`" + id + "`", refineAll(fewer, asked, config.landmarks, recording->camera(), {}, false));
+    print("`" + id + "`", refineAll(fewer, asked, config.landmarks, recording->camera(), {}, options.is_verbose));
   }
 }
 
