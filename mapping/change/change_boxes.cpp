@@ -163,6 +163,9 @@ double confidenceOf(const Cluster& cluster, const EvidenceMap& evidence) {
   return agreement_sum / static_cast<double>(cluster.size()) * std::erf(medianOf(clear_sigmas) / std::sqrt(2.0));
 }
 
+/// Whole voxels come a rounding short of a size that is a multiple of theirs.
+constexpr double kRounding_m = 1e-6;
+
 double secondLongest(const Eigen::Vector3d& size_m) {
   std::array<double, 3> sides = {size_m.x(), size_m.y(), size_m.z()};
   std::sort(sides.begin(), sides.end());
@@ -180,7 +183,8 @@ std::vector<Change> boxChanges(ChangeKind kind, const EvidenceMap& evidence, con
   std::vector<Change> changes;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     Box box = boxAround(clusters[i], evidence, kind == ChangeKind::kGone ? 0.5 * lattice.resolutionM() : 0.0);
-    if (static_cast<int>(seeds[i].size()) < config.min_seed_voxels || secondLongest(box.max_map - box.min_map) < config.min_size_m) {
+    if (static_cast<int>(seeds[i].size()) < config.min_seed_voxels ||
+        secondLongest(box.max_map - box.min_map) + kRounding_m < config.min_size_m) {
       continue;
     }
     const auto support_m = findSupport_m(box, support, lattice, config.max_tolerance_m);

@@ -34,7 +34,7 @@ struct ChangeConfig {
   DepthFilterConfig surface;       ///< which readings show a surface; all readings can hide one
   int pixel_stride = 2;            ///< every n-th pixel of every n-th row
   int min_points = 2;              ///< readings in a voxel that make a surface
-  double max_missing_share = 0.2;  ///< of the pixels about a voxel that is seen through
+  double max_missing_share = 0.2;  ///< of the pixels of each square of a voxel's size about one that is seen through
   double min_agreement = 0.7;      ///< of the views that see a voxel: share that sees the change
   double join_m = 0.11;            ///< changed voxels this near to each other are one change
   int min_seed_voxels = 6;         ///< that stand clear in full

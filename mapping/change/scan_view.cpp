@@ -13,6 +13,11 @@ namespace oikos::mapping {
 namespace {
 
 constexpr int kTile_px = 4;
+constexpr int kMinGap_px = 2;  ///< a single pixel without a reading is noise
+
+bool isReading(float z) {
+  return z > 0.0F && std::isfinite(z);
+}
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
@@ -29,6 +34,7 @@ ScanView::ScanView(const LocatedScan& scan, const ChangeConfig& config, double r
   OIKOS_CHECK((scan.covariance - scan.covariance.transpose()).cwiseAbs().maxCoeff() <= 1e-9 &&
               scan.covariance.diagonal().minCoeff() >= 0.0);
   fillTiles();
+  sumMissing();
 }
 
 void ScanView::fillTiles() {
@@ -37,40 +43,64 @@ void ScanView::fillTiles() {
   tile_rows_ = depth.rows / kTile_px;
   for (int row = 0; row < tile_rows_; ++row) {
     for (int column = 0; column < tile_columns_; ++column) {
-      Tile tile{std::numeric_limits<float>::infinity(), 0};
+      float nearest_m = std::numeric_limits<float>::infinity();
       for (int v = row * kTile_px; v < (row + 1) * kTile_px; ++v) {
         for (int u = column * kTile_px; u < (column + 1) * kTile_px; ++u) {
           const float z = depth.ptr<float>(v)[u];
-          const bool is_reading = z > 0.0F && std::isfinite(z);
-          tile.nearest_m = is_reading ? std::min(tile.nearest_m, z) : tile.nearest_m;
-          tile.missing += is_reading ? 0 : 1;
+          nearest_m = isReading(z) ? std::min(nearest_m, z) : nearest_m;
         }
       }
-      tiles_.push_back(tile);
+      tiles_.push_back(nearest_m);
+    }
+  }
+}
+
+void ScanView::sumMissing() {
+  const cv::Mat& depth = scan_.depth_m;
+  missing_ = cv::Mat(depth.rows + 1, depth.cols + 1, CV_32SC1, cv::Scalar(0));
+  for (int v = 0; v < depth.rows; ++v) {
+    const int* above = missing_.ptr<int>(v);
+    int* below = missing_.ptr<int>(v + 1);
+    int in_row = 0;
+    for (int u = 0; u < depth.cols; ++u) {
+      in_row += isReading(depth.ptr<float>(v)[u]) ? 0 : 1;
+      below[u + 1] = above[u + 1] + in_row;
     }
   }
 }
 
 std::optional<ScanView::Window> ScanView::findWindow(const Eigen::Vector2d& pixel, double radius_px) const {
   const auto tileOf = [](double px) { return static_cast<int>(std::floor((px + 0.5) / kTile_px)); };
-  const int left = tileOf(pixel.x() - radius_px);
-  const int right = tileOf(pixel.x() + radius_px);
-  const int top = tileOf(pixel.y() - radius_px);
-  const int bottom = tileOf(pixel.y() + radius_px);
-  if (left < 0 || top < 0 || right >= tile_columns_ || bottom >= tile_rows_) {
-    return std::nullopt;
-  }
+  const Window window{tileOf(pixel.x() - radius_px), tileOf(pixel.x() + radius_px), tileOf(pixel.y() - radius_px),
+                      tileOf(pixel.y() + radius_px)};
+  const bool is_inside = window.left >= 0 && window.top >= 0 && window.right < tile_columns_ && window.bottom < tile_rows_;
+  return is_inside ? std::optional(window) : std::nullopt;
+}
+
+float ScanView::nearest_m(const Window& window) const {
   float nearest_m = std::numeric_limits<float>::infinity();
-  int missing = 0;
-  for (int row = top; row <= bottom; ++row) {
-    for (int column = left; column <= right; ++column) {
-      const Tile& tile = tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(tile_columns_) + static_cast<std::size_t>(column)];
-      nearest_m = std::min(nearest_m, tile.nearest_m);
-      missing += tile.missing;
+  for (int row = window.top; row <= window.bottom; ++row) {
+    const auto first = tiles_.begin() + static_cast<std::ptrdiff_t>(row) * tile_columns_;
+    nearest_m = std::min(nearest_m, *std::min_element(first + window.left, first + window.right + 1));
+  }
+  return nearest_m;
+}
+
+bool ScanView::hasGap(const Window& window, int side_px) const {
+  const int step_px = std::max(1, side_px / 4);
+  const double most = config_.max_missing_share * side_px * side_px;
+  const int last_u = (window.right + 1) * kTile_px - side_px;
+  const int last_v = (window.bottom + 1) * kTile_px - side_px;
+  for (int v = window.top * kTile_px; v <= last_v; v += step_px) {
+    const int* above = missing_.ptr<int>(v);
+    const int* below = missing_.ptr<int>(v + side_px);
+    for (int u = window.left * kTile_px; u <= last_u; u += step_px) {
+      if (below[u + side_px] - below[u] - above[u + side_px] + above[u] > most) {
+        return true;
+      }
     }
   }
-  const int pixels = (right - left + 1) * (bottom - top + 1) * kTile_px * kTile_px;
-  return Window{nearest_m, static_cast<double>(missing) / pixels};
+  return false;
 }
 
 double ScanView::sigma_m(const Eigen::Vector3d& point_camera) const {
@@ -103,9 +133,14 @@ Sighting ScanView::look(const Eigen::Vector3d& point_map, double tolerance_share
     return {};
   }
   const double clear_m = tolerance_share * *tolerance_m;
-  const auto window = findWindow(pixel, clear_m * std::max(scan_.camera.fx, scan_.camera.fy) / point_camera.z());
-  if (window && window->missing_share <= config_.max_missing_share && window->nearest_m > point_camera.z() + clear_m) {
-    return {Sight::kThrough, (window->nearest_m - point_camera.z()) / std::max(1e-6, sigma_m(point_camera))};
+  const double px_per_m = std::max(scan_.camera.fx, scan_.camera.fy) / point_camera.z();
+  if (const auto window = findWindow(pixel, clear_m * px_per_m)) {
+    const double nearest_m = this->nearest_m(*window);
+    // A thing that gives no reading, as poles and legs often do, leaves a gap of its size: a share of the window would forget it.
+    const int voxel_px = std::max(kMinGap_px, static_cast<int>(std::lround(resolution_m_ * px_per_m)));
+    if (nearest_m > point_camera.z() + clear_m && !hasGap(*window, voxel_px)) {
+      return {Sight::kThrough, (nearest_m - point_camera.z()) / std::max(1e-6, sigma_m(point_camera))};
+    }
   }
   const double depth_m = scan_.depth_m.at<float>(static_cast<int>(std::lround(pixel.y())), static_cast<int>(std::lround(pixel.x())));
   return {std::abs(depth_m - point_camera.z()) <= *tolerance_m ? Sight::kNearSurface : Sight::kNothing, 0.0};

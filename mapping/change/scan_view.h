@@ -25,7 +25,8 @@ struct LocatedScan {
 enum class Sight {
   kNothing,      ///< out of view, hidden, not measured, or the tolerance is too large
   kNearSurface,  ///< something stands within the tolerance along the ray
-  kThrough,      ///< everything in the tolerance about the point's pixel is farther than the point by more than the tolerance
+  kThrough,      ///< everything in the tolerance about the point's pixel is farther than the point by more than the tolerance, and no gap
+                 ///< in the readings there could hold a thing of the voxel's size
 };
 
 struct Sighting {
@@ -48,17 +49,20 @@ class ScanView {
   [[nodiscard]] const LocatedScan& scan() const { return scan_; }
 
  private:
-  /// The readings of a square of pixels.
-  struct Tile {
-    float nearest_m;
-    int missing;
-  };
+  /// Tiles about a pixel, both ends included.
   struct Window {
-    double nearest_m;
-    double missing_share;
+    int left;
+    int right;
+    int top;
+    int bottom;
   };
   void fillTiles();
+  void sumMissing();
+  /// Nothing: it reaches beyond the image.
   [[nodiscard]] std::optional<Window> findWindow(const Eigen::Vector2d& pixel, double radius_px) const;
+  [[nodiscard]] float nearest_m(const Window& window) const;
+  /// Whether a square of `side_px` in the window has fewer readings than the configuration asks for.
+  [[nodiscard]] bool hasGap(const Window& window, int side_px) const;
 
   LocatedScan scan_;
   Eigen::Isometry3d T_camera_map_;
@@ -66,7 +70,8 @@ class ScanView {
   double resolution_m_;
   int tile_columns_ = 0;
   int tile_rows_ = 0;
-  std::vector<Tile> tiles_;
+  std::vector<float> tiles_;  ///< nearest reading in metres
+  cv::Mat missing_;           ///< CV_32SC1: pixels without a reading above and left of each corner
 };
 
 }  // namespace oikos::mapping

@@ -170,6 +170,21 @@ TEST(ChangeFinder, MissingDepthIsNoChange) {
   EXPECT_TRUE(findChanges(mapOf({kTable, kChest}), scans, fineConfig()).changes.empty());
 }
 
+/// A floor lamp's pole, about which all scans look at the wall behind: a depth camera has no readings of things so thin from some places.
+TEST(ChangeFinder, APoleThatGivesNoReadingsIsNotGone) {
+  const test::AnalyticBox pole = {{0.975, 0.975, 0.0}, {1.025, 1.025, 1.5}, {30, 30, 30}};
+  const SeenSpace map = mapOf({kTable, pole});
+  std::vector<LocatedScan> unread = scansOf({kTable});
+  for (LocatedScan& scan : unread) {
+    const LocatedScan before = scanOf({kTable, pole}, scan.T_map_camera);
+    scan.depth_m.setTo(std::numeric_limits<float>::quiet_NaN(), before.depth_m < scan.depth_m - 1e-4F);
+  }
+  EXPECT_TRUE(findChanges(map, unread, fineConfig()).changes.empty());
+  const ChangeResult taken = findChanges(map, scansOf({kTable}), fineConfig());
+  ASSERT_EQ(taken.changes.size(), 1U);
+  EXPECT_EQ(taken.changes[0].kind, ChangeKind::kGone);
+}
+
 /// The map was seen towards +x only; the chest stands at its border and beyond.
 TEST(ChangeFinder, WhatTheMapNeverSawIsNoChange) {
   std::vector<Eigen::Isometry3d> poses;

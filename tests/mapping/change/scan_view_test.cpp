@@ -51,6 +51,28 @@ TEST(ScanView, MissingDepthIsNoFreeSpace) {
   EXPECT_EQ(ScanView(scan, {}, 0.05).look({0.0, 0.0, 1.0}, 1.0).sight, Sight::kNothing);
 }
 
+/// A pole of 2.2 cm, 1 m before the camera, as an eighth of the pixels within the tolerance.
+TEST(ScanView, AThinThingWithoutReadingsIsNotSeenThrough) {
+  LocatedScan scan = wallScan(2.0);
+  EXPECT_EQ(ScanView(scan, {}, 0.05).look({0.0, 0.0, 1.0}, 1.0).sight, Sight::kThrough);
+  for (int left = 74; left < 84; ++left) {
+    LocatedScan pole = wallScan(2.0);
+    pole.depth_m.colRange(left, left + 3).setTo(std::numeric_limits<float>::quiet_NaN());
+    EXPECT_EQ(ScanView(pole, {}, 0.05).look({0.0, 0.0, 1.0}, 1.0).sight, Sight::kNothing) << "column " << left;
+  }
+}
+
+/// As many readings are missing, nowhere two beside each other.
+TEST(ScanView, SpecksWithoutReadingsHideNothing) {
+  LocatedScan scan = wallScan(2.0);
+  for (int v = 0; v < scan.depth_m.rows; ++v) {
+    for (int u = v % 2 == 0 ? 0 : 4; u < scan.depth_m.cols; u += 8) {
+      scan.depth_m.at<float>(v, u) = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  EXPECT_EQ(ScanView(scan, {}, 0.05).look({0.0, 0.0, 1.0}, 1.0).sight, Sight::kThrough);
+}
+
 TEST(ScanView, SomethingNearThePixelHidesThePoint) {
   LocatedScan scan = wallScan(2.0);
   scan.depth_m.colRange(84, 88).setTo(1.0);  // 5 px beside the point's pixel: 4 cm at 1 m
