@@ -339,11 +339,7 @@ std::vector<PieceReading> StateReader::conclude() const {
     if (track.frames_in_view == 0) {
       continue;
     }
-<<<<<<< HEAD
-    PieceReading reading{pieces_[p].id, track.frames_in_view, static_cast<int>(track.shots.size()), 0, {}, {}};
-=======
-    PieceReading reading{pieces_[p].id, track.frames_in_view, static_cast<int>(track.shots.size()), 0, 0, {}};
->>>>>>> fa1eb685 (A leaf that stands open is no cupboard that was moved; two programs may track one home at once)
+    PieceReading reading{pieces_[p].id, track.frames_in_view, static_cast<int>(track.shots.size()), 0, 0, {}, {}};
     for (const Shot& shot : track.shots) {
       reading.registered += shot.base == registration::BaseStatus::kRegistered ? 1 : 0;
       reading.not_there += shot.base == registration::BaseStatus::kNotThere ? 1 : 0;
