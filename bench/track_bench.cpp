@@ -38,16 +38,23 @@ void report(const bench::ScenarioTally& tally) {
               tally.frames / tally.seconds, tally.best_rate, 1000.0 * tally.cpu_s / std::max(1, tally.frames), tally.peak_mb);
 }
 
+void report(const bench::KnobTally& tally) {
+  std::printf("knobs: right after the drive %d of %d that were set anew, %s; false events %d of %d, %s\n", tally.found, tally.expected,
+              rate(tally.found, tally.expected).c_str(), tally.false_events, tally.events, rate(tally.false_events, tally.events).c_str());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   bench::ScenarioOptions options{.oikos = OIKOS_BUILT_BINARY, .demo_home = OIKOS_DEMO_HOME, .folder = {}};
   int recordings = 12;
+  int ovens = 0;
   std::vector<unsigned> seeds = {1};
   fs::path keep;
-  CLI::App app("What oikos track makes of short drives between which doors and drawers are moved", "track_bench");
+  CLI::App app("What oikos track makes of short drives between which doors, drawers and knobs are moved", "track_bench");
   app.add_option("--oikos", options.oikos, "the program to run")->check(CLI::ExistingFile);
-  app.add_option("--recordings", recordings, "drives of each home; four routes take turns")->check(CLI::Range(1, 300));
+  app.add_option("--recordings", recordings, "drives of each home; four routes take turns")->check(CLI::Range(0, 300));
+  app.add_option("--ovens", ovens, "drives up to the oven of each home, whose knobs are turned")->check(CLI::Range(0, 100));
   app.add_option("--belief-mm", options.belief_mm, "standard deviation of believed dimensions and places");
   app.add_option("--threads", options.threads);
   app.add_option("--seed", seeds, "one home each");
@@ -56,6 +63,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     bench::ScenarioTally tally;
+    bench::KnobTally knobs;
     for (const unsigned seed : seeds) {
       const test::TemporaryFolder folder;
       options.folder = (keep.empty() ? folder.path() : keep) / ("seed-" + std::to_string(seed));
@@ -64,8 +72,16 @@ int main(int argc, char** argv) {
       for (int recording = 0; recording < recordings; ++recording) {
         scenario.run(recording, tally);
       }
+      for (int oven = 0; oven < ovens; ++oven) {
+        scenario.runOven(recordings + oven, knobs);
+      }
     }
-    report(tally);
+    if (recordings > 0) {
+      report(tally);
+    }
+    if (ovens > 0) {
+      report(knobs);
+    }
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "track_bench: %s\n", error.what());

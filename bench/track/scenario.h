@@ -41,6 +41,14 @@ struct ScenarioTally {
   double peak_mb = 0.0;
 };
 
+/// Of the oven's knobs.
+struct KnobTally {
+  int expected = 0;  ///< that stand, when the robot stands before them at the drive's end, elsewhere than the home believes,
+  int found = 0;     ///< and of these, those that the home has right then
+  int events = 0;
+  int false_events = 0;  ///< of knobs that the home has wrong then
+};
+
 /// Drives of one home, whose joints go on from where the last drive has left them.
 class Scenario {
  public:
@@ -48,6 +56,8 @@ class Scenario {
   explicit Scenario(const ScenarioOptions& options);
 
   void run(int number, ScenarioTally& tally);
+  /// A drive up to the oven, from somewhere else each time, some of its knobs being turned.
+  void runOven(int number, KnobTally& tally);
 
  private:
   [[nodiscard]] std::filesystem::path home() const { return options_.folder / "home"; }
@@ -57,6 +67,7 @@ class Scenario {
   void believe(simulate::SceneScript& script) const;
   void simulate(const std::string& name, const simulate::SceneScript& script) const;
   [[nodiscard]] simulate::SceneScript scriptOf(int number, const Route& route, const std::vector<StateChange>& changes);
+  [[nodiscard]] Route drawOvenRoute();
   [[nodiscard]] nlohmann::json evaluated(const std::string& name) const;
   void judge(int number, const std::vector<StateChange>& changes, const nlohmann::json& before, const nlohmann::json& recording,
              ScenarioTally& tally) const;
@@ -64,6 +75,7 @@ class Scenario {
   ScenarioOptions options_;
   std::mt19937_64 random_;
   States states_;
+  std::map<std::string, std::string> settings_;  ///< of knobs
 };
 
 }  // namespace oikos::bench
