@@ -65,8 +65,11 @@ Showing showingOf(const ShownParts& shown, const StateChange& change) {
 }  // namespace
 
 Scenario::Scenario(const ScenarioOptions& options) : options_(options), random_(options.seed) {
-  fs::create_directories(home() / "scenes");
-  fs::copy_file(options.demo_home / "home.xml", home() / "home.xml", fs::copy_options::overwrite_existing);
+  fs::create_directories(home());
+  fs::create_directories(deployed() / "scenes");
+  for (const fs::path& folder : {home(), deployed()}) {
+    fs::copy_file(options.demo_home / "home.xml", folder / "home.xml", fs::copy_options::overwrite_existing);
+  }
   for (const char* file : {"history.sqlite", "history.sqlite-wal", "history.sqlite-shm"}) {
     fs::remove(home() / file);
   }
@@ -143,7 +146,7 @@ void Scenario::believe(simulate::SceneScript& script) const {
 }
 
 void Scenario::simulate(const std::string& name, const simulate::SceneScript& script) const {
-  const fs::path file = home() / "scenes" / (name + ".toml");
+  const fs::path file = deployed() / "scenes" / (name + ".toml");
   const std::string text = base::writeConfig(script);
   if (fs::exists(drive(name)) && fs::exists(file) && base::readFile(file) == text) {
     return;

@@ -61,6 +61,8 @@ class Scenario {
 
  private:
   [[nodiscard]] std::filesystem::path home() const { return options_.folder / "home"; }
+  /// What drives are simulated of: the home as it was believed at the deployment, whatever is told of it later.
+  [[nodiscard]] std::filesystem::path deployed() const { return options_.folder / "deployed"; }
   [[nodiscard]] std::filesystem::path drive(const std::string& name) const { return options_.folder / name; }
   ChildRun must(std::vector<std::string> words) const;
   void deploy() const;

@@ -96,9 +96,9 @@ std::optional<Eigen::Isometry3d> Localiser::predict(std::int64_t stamp_ns) const
   return T_last_now ? last_->T_map_camera * *T_last_now : last_->T_map_camera;
 }
 
-registration::CameraPrior Localiser::priorOf(const LocatedPose& located) const {
+registration::CameraPrior Localiser::priorOf(const LocatedPose& located, const Eigen::Isometry3d& T_map_camera) const {
   registration::CameraPrior prior;
-  prior.T_map_camera = *located.T_map_camera_before;
+  prior.T_map_camera = T_map_camera;
   prior.robot_camera = tools_.T_base_camera.inverse().translation();
   prior.sigma_m = config_.map_prior_sigma_m;
   prior.sigma_rad = config_.map_prior_sigma_deg * base::kRadPerDeg;
@@ -119,7 +119,7 @@ void Localiser::refine(const camera::RgbdFrame& frame, LocatedPose& located) con
   if (tools_.furniture == nullptr || !located.T_map_camera_before || located.landmarks) {
     return;
   }
-  const registration::CameraPrior prior = priorOf(located);
+  const registration::CameraPrior prior = priorOf(located, *located.T_map_camera_before);
   const registration::Scan scan = registration::makeScan(frame.depth_m, tools_.camera, config_.scan);
   located.landmarks = registration::refineByLandmarks(*tools_.furniture, scan, prior, config_.landmarks, tools_.only);
   if (located.landmarks->status == registration::RefinementStatus::kRefined) {

@@ -103,7 +103,7 @@ class Localiser {
   [[nodiscard]] LocatedPose locate(const camera::RgbdFrame& frame);
   LocatedPose concluded(const camera::RgbdFrame& frame, LocatedPose located);
   static void take(const std::optional<CarriedPose>& carried, LocatedPose& located);
-  [[nodiscard]] registration::CameraPrior priorOf(const LocatedPose& located) const;
+  [[nodiscard]] registration::CameraPrior priorOf(const LocatedPose& located, const Eigen::Isometry3d& T_map_camera) const;
   [[nodiscard]] std::optional<Eigen::Isometry3d> predict(std::int64_t stamp_ns) const;
 
   LocaliserTools tools_;

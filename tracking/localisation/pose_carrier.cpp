@@ -74,7 +74,7 @@ std::optional<CarriedPose> PoseCarrier::carry(const camera::RgbdFrame& frame) {
   if (T_last_now || static_cast<double>(frame.stamp_ns - last_ns_) * 1e-9 <= config_.max_gap_s) {
     prepare(*host_);
     pyramid = std::make_shared<const mapping::ImagePyramid>(frame.gray, pyramid_levels_);
-    step = byPictures(frame, pyramid, T_last_now);
+    step = byPictures(*host_, frame, pyramid, T_last_now);
   }
   if (!step) {
     step = byWheels(T_last_now);
@@ -106,12 +106,12 @@ void PoseCarrier::prepare(Host& host) const {
   }
 }
 
-std::optional<PoseCarrier::Step> PoseCarrier::byPictures(const camera::RgbdFrame& frame, const Pyramid& pyramid,
-                                                         const std::optional<Eigen::Isometry3d>& T_last_now_wheels) {
-  const Host& host = *host_;
-  const Eigen::Isometry3d T_last_now = T_last_now_wheels ? *T_last_now_wheels : expectedMotion(pyramid);
+std::optional<PoseCarrier::Step> PoseCarrier::byPictures(const Host& host, const camera::RgbdFrame& frame, const Pyramid& pyramid,
+                                                         const std::optional<Eigen::Isometry3d>& T_last_now_wheels) const {
+  const Eigen::Isometry3d T_last_now = T_last_now_wheels ? *T_last_now_wheels : expectedMotion(host, pyramid);
   const Eigen::Isometry3d T_host_last = host.pose.T_map_camera.inverse() * last_.T_map_camera;
   std::vector<mapping::Candidate> candidates;
+  candidates.reserve(host.landmarks.size());
   for (std::size_t i = 0; i < host.landmarks.size(); ++i) {
     candidates.push_back({static_cast<int>(i), &host.landmarks[i], Eigen::Isometry3d::Identity(), host.pyramid.get()});
   }
@@ -152,9 +152,9 @@ std::optional<PoseCarrier::Step> PoseCarrier::byWheels(const std::optional<Eigen
 }
 
 /// The last motion once more, its turn corrected by the images.
-Eigen::Isometry3d PoseCarrier::expectedMotion(const Pyramid& pyramid) const {
+Eigen::Isometry3d PoseCarrier::expectedMotion(const Host& host, const Pyramid& pyramid) const {
   Eigen::Isometry3d T_last_now = T_before_last_;
-  const mapping::ImagePyramid& before = last_pyramid_ ? *last_pyramid_ : *host_->pyramid;
+  const mapping::ImagePyramid& before = last_pyramid_ ? *last_pyramid_ : *host.pyramid;
   const mapping::RotationAlignment turn = mapping::alignRotation(before, *pyramid, camera_, T_before_last_.linear());
   if (turn.converged) {
     T_last_now.linear() = turn.R_previous_current;

@@ -91,10 +91,10 @@ class PoseCarrier {
   };
 
   void prepare(Host& host) const;
-  [[nodiscard]] std::optional<Step> byPictures(const camera::RgbdFrame& frame, const Pyramid& pyramid,
-                                               const std::optional<Eigen::Isometry3d>& T_last_now_wheels);
+  [[nodiscard]] std::optional<Step> byPictures(const Host& host, const camera::RgbdFrame& frame, const Pyramid& pyramid,
+                                               const std::optional<Eigen::Isometry3d>& T_last_now_wheels) const;
   [[nodiscard]] std::optional<Step> byWheels(const std::optional<Eigen::Isometry3d>& T_last_now_wheels) const;
-  [[nodiscard]] Eigen::Isometry3d expectedMotion(const Pyramid& pyramid) const;
+  [[nodiscard]] Eigen::Isometry3d expectedMotion(const Host& host, const Pyramid& pyramid) const;
   [[nodiscard]] bool isGoodEnough(const CarriedPose& pose) const;
 
   const camera::PinholeCamera& camera_;

@@ -10,7 +10,7 @@ bool isRefuted(const FurniturePlace& place, const semantic::LargeObject& believe
   constexpr int kLeast = 2;
   const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const PieceReading& one) { return one.id == place.id; });
   const double way_m = (place.T_map_object.translation() - believed.T_map_object.position_m).norm();
-  return piece != pieces.end() && way_m > kFollowed_m && piece->registered >= kLeast && piece->registered > 2 * piece->not_there;
+  return piece != pieces.end() && way_m > kFollowed_m && piece->in_place >= kLeast && piece->in_place > 2 * piece->not_there;
 }
 
 }  // namespace oikos::tracking

@@ -26,7 +26,11 @@ using registration::JointStatus;
 struct Shot {
   int index = 0;  ///< of the frames that were looked at
   registration::BaseStatus base = registration::BaseStatus::kNotInView;
+<<<<<<< HEAD
   registration::Standing standing;
+=======
+  bool is_in_place = false;  ///< it is registered, and most readings of it are
+>>>>>>> 0a6274dd (What refutes a move: images most of whose readings are of the piece; drives are simulated of the home as deployed)
   std::vector<registration::JointEstimate> joints;
 };
 
@@ -317,6 +321,7 @@ void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const re
   track.handles->add({depth_m, camera_, frame.T_map_camera}, result);
   const int index = static_cast<int>(&frame - frames_.data());
   const auto after = std::find_if(track.shots.begin(), track.shots.end(), [&](const Shot& shot) { return shot.index > index; });
+<<<<<<< HEAD
   track.shots.insert(after, {index, result.status, {result.T_map_model, std::move(result.joint_values)}, std::move(result.joints)});
 }
 
@@ -330,6 +335,11 @@ std::optional<registration::Standing> StateReader::standingIn(const camera::Rgbd
   }
   const auto shot = find();
   return shot->base == registration::BaseStatus::kNotThere ? std::nullopt : std::optional(shot->standing);
+=======
+  const bool is_in_place =
+      result.status == registration::BaseStatus::kRegistered && 2 * result.base_counts.agreeing > result.base_counts.read;
+  track.shots.insert(after, {index, result.status, is_in_place, std::move(result.joints)});
+>>>>>>> 0a6274dd (What refutes a move: images most of whose readings are of the piece; drives are simulated of the home as deployed)
 }
 
 std::vector<PieceReading> StateReader::conclude() const {
@@ -341,7 +351,7 @@ std::vector<PieceReading> StateReader::conclude() const {
     }
     PieceReading reading{pieces_[p].id, track.frames_in_view, static_cast<int>(track.shots.size()), 0, 0, {}, {}};
     for (const Shot& shot : track.shots) {
-      reading.registered += shot.base == registration::BaseStatus::kRegistered ? 1 : 0;
+      reading.in_place += shot.is_in_place ? 1 : 0;
       reading.not_there += shot.base == registration::BaseStatus::kNotThere ? 1 : 0;
     }
     const std::vector<std::vector<JointSpan>> spans = track.spans(frames_, config_.fusion);

@@ -46,9 +46,9 @@ struct JointReading {
 struct PieceReading {
   semantic::ObjectId id;
   int frames_in_view = 0;
-  int images = 0;      ///< that were registered,
-  int registered = 0;  ///< of these, that show it about where it is believed to be,
-  int not_there = 0;   ///< and that do not; the others cannot tell
+  int images = 0;     ///< that were registered,
+  int in_place = 0;   ///< of these, that show it about where it is believed to be, most of its readings being of it,
+  int not_there = 0;  ///< and that do not show it there; the others cannot tell
   std::vector<JointReading> joints;
   std::vector<HandleReading> handles;
 };

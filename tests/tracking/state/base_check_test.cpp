@@ -20,11 +20,11 @@ FurniturePlace placeAside(double way_m) {
   return place;
 }
 
-PieceReading reading(int registered, int not_there) {
+PieceReading reading(int in_place, int not_there) {
   PieceReading piece;
   piece.id = {"cabinet"};
-  piece.images = registered + not_there + 1;
-  piece.registered = registered;
+  piece.images = in_place + not_there + 1;
+  piece.in_place = in_place;
   piece.not_there = not_there;
   return piece;
 }
