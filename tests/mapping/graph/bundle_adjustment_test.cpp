@@ -181,5 +181,53 @@ TEST(BundleAdjustment, WhatIsSettledHoldsANodeWithoutSightings) {
   EXPECT_LT((T_neighbour_alone.translation() - Eigen::Vector3d(0.1, 0.0, 0.0)).norm(), 1e-3);
 }
 
+/// A map that is extended: all nodes are settled, each tied to the next one as the truth has it but for `edge_error_m` to all sides in
+/// turn.
+void settle(SimulatedBundle& bundle, double edge_error_m) {
+  for (int n = 0; n + 1 < static_cast<int>(bundle.graph.nodes.size()); ++n) {
+    Edge edge;
+    edge.from = n;
+    edge.to = n + 1;
+    edge.T_from_to = bundle.T_world_true[static_cast<std::size_t>(n)].inverse() * bundle.T_world_true[static_cast<std::size_t>(n) + 1];
+    edge.T_from_to.translation()[n % 3] += n % 2 == 0 ? edge_error_m : -edge_error_m;
+    bundle.graph.edges.push_back(edge);
+  }
+  bundle.graph.settled = static_cast<int>(bundle.graph.nodes.size());
+}
+
+/// Three landmarks a node, seen with 3 px: 11 mm of one sighting at 2 m. Nine motions held to 1 mm and 1 mrad each make 3 mm and 3 mrad at
+/// the end of the chain; three deviations are allowed. Held to 3 cm, the sightings bend it by more.
+TEST(BundleAdjustment, FewAndPoorSightingsDoNotBendWhatIsSettled) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    SimulatedBundle held({.seed = seed, .landmarks_per_node = 3, .pixel_sigma_px = 3.0, .start_shift_m = 0.0, .start_turn_rad = 0.0});
+    settle(held, 0.0);
+    SimulatedBundle loose = held;
+    ASSERT_TRUE(adjustBundle(held.graph, held.camera, 0.0, Readout::kFixed, {}).usable);
+    EXPECT_LT(held.worstError_m(), 0.009) << "seed " << seed;
+    EXPECT_LT(held.worstTurn_rad(), 0.009) << "seed " << seed;
+    BundleAdjustmentConfig config;
+    config.settled_sigma_m = 0.03;
+    config.settled_sigma_rad = 0.03;
+    ASSERT_TRUE(adjustBundle(loose.graph, loose.camera, 0.0, Readout::kFixed, config).usable);
+    EXPECT_GT(loose.worstError_m(), 0.009) << "seed " << seed;
+  }
+}
+
+/// What many good sightings say to a millimetre and less puts right what is settled and 4 mm off.
+TEST(BundleAdjustment, ManyGoodSightingsPutRightWhatIsSettled) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    SimulatedBundle bundle({.seed = seed, .start_shift_m = 0.0, .start_turn_rad = 0.0});
+    settle(bundle, 0.004);
+    SimulatedBundle stiff = bundle;
+    ASSERT_TRUE(adjustBundle(bundle.graph, bundle.camera, 0.0, Readout::kFixed, {}).usable);
+    EXPECT_LT(bundle.worstError_m(), 0.003) << "seed " << seed;
+    BundleAdjustmentConfig config;
+    config.settled_sigma_m = 1e-5;
+    config.settled_sigma_rad = 1e-5;
+    ASSERT_TRUE(adjustBundle(stiff.graph, stiff.camera, 0.0, Readout::kFixed, config).usable);
+    EXPECT_GT(stiff.worstError_m(), 0.004) << "seed " << seed;  // held so fast that nothing can
+  }
+}
+
 }  // namespace
 }  // namespace oikos::mapping
