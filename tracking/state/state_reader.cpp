@@ -18,55 +18,7 @@ namespace oikos::tracking {
 
 namespace {
 
-using registration::JointSighting;
 using registration::JointSpan;
-using registration::JointStatus;
-
-/// One piece in one frame, registered.
-struct Shot {
-  int index = 0;  ///< of the frames that were looked at
-  registration::BaseStatus base = registration::BaseStatus::kNotInView;
-<<<<<<< HEAD
-  registration::Standing standing;
-=======
-  bool is_in_place = false;  ///< it is registered, and most readings of it are
->>>>>>> 0a6274dd (What refutes a move: images most of whose readings are of the piece; drives are simulated of the home as deployed)
-  std::vector<registration::JointEstimate> joints;
-};
-
-std::vector<JointSighting> sightingsOf(const std::vector<Shot>& shots, std::size_t joint, const std::vector<SeenFrame>& frames) {
-  std::vector<JointSighting> sightings;
-  for (const Shot& shot : shots) {
-    const SeenFrame& frame = frames[static_cast<std::size_t>(shot.index)];
-    const registration::JointEstimate& estimate = shot.joints[joint];
-    sightings.push_back({frame.stamp_ns, frame.T_map_camera, estimate.status, estimate.confidence, estimate.evidence});
-  }
-  return sightings;
-}
-
-JointStay stayOf(const JointSpan& span, const std::vector<Shot>& shots, std::size_t joint, const std::vector<SeenFrame>& frames) {
-  JointStay stay;
-  stay.span = span;
-  const auto seenIn = [&](std::size_t shot) -> const SeenFrame& { return frames[static_cast<std::size_t>(shots[shot].index)]; };
-  stay.first_ns = seenIn(span.first).stamp_ns;
-  stay.first_frame = seenIn(span.first).frame;
-  int most = -1;
-  for (std::size_t i = span.first; i <= span.last; ++i) {
-    const registration::JointEstimate& estimate = shots[i].joints[joint];
-    const bool is_found = estimate.status == JointStatus::kFound;
-    stay.images += estimate.status != JointStatus::kNotInView ? 1 : 0;
-    if (is_found && stay.found++ == 0) {
-      stay.first_ns = seenIn(i).stamp_ns;
-      stay.first_frame = seenIn(i).frame;
-    }
-    const int shown = estimate.sight.agreeing + (is_found ? 1'000'000 : 0);
-    if (shown > most) {
-      most = shown;
-      stay.best_frame = seenIn(i).frame;
-    }
-  }
-  return stay;
-}
 
 /// The pixels of the piece with that joint where it was found, and some beside them.
 registration::PixelBox cropOf(const ArticulatedPiece& piece, int joint, double value, const Eigen::Isometry3d& T_map_camera,
@@ -107,85 +59,6 @@ PoseSigma poseSigmaAt(const ArticulatedPiece& piece, const SeenFrame& frame) {
 
 }  // namespace
 
-/// What is known of a piece so far.
-struct StateReader::Track {
-  std::unique_ptr<registration::ArticulatedRegistration> registration;  ///< from the first image on,
-  std::unique_ptr<render::Scene> about;                                 ///< and this, too
-  std::set<int> wanted;                                                 ///< indices of the frames
-  std::unique_ptr<PieceHandles> handles;                                ///< and this
-  std::vector<Shot> shots;                                              ///< in the order of time
-  int frames_in_view = 0;
-
-  [[nodiscard]] std::vector<int> indices() const {
-    std::vector<int> indices;
-    indices.reserve(shots.size());
-    for (const Shot& shot : shots) {
-      indices.push_back(shot.index);
-    }
-    return indices;
-  }
-  void want(std::optional<int> index) {
-    const auto is_it = [&](const Shot& shot) { return shot.index == *index; };
-    if (index && std::none_of(shots.begin(), shots.end(), is_it)) {
-      wanted.insert(*index);
-    }
-  }
-  [[nodiscard]] int foundIn(const JointSpan& span, std::size_t joint) const {
-    int found = 0;
-    for (std::size_t i = span.first; i <= span.last; ++i) {
-      found += shots[i].joints[joint].status == JointStatus::kFound ? 1 : 0;
-    }
-    return found;
-  }
-  /// The first image of the span that has found the joint.
-  [[nodiscard]] std::size_t witnessOf(const JointSpan& span, std::size_t joint) const {
-    std::size_t i = span.first;
-    while (shots[i].joints[joint].status != JointStatus::kFound) {
-      ++i;
-    }
-    return i;
-  }
-  /// Images that have found the joint elsewhere than their span has it: misreadings, or a stay that was too short for the images read.
-  [[nodiscard]] std::vector<std::size_t> dissenters(const JointSpan& span, std::size_t joint,
-                                                    const registration::JointDecisionConfig& config) const {
-    std::vector<std::size_t> dissenters;
-    for (std::size_t i = span.first; i <= span.last; ++i) {
-      const registration::JointEstimate& estimate = shots[i].joints[joint];
-      const double same = estimate.evidence.is_turn ? config.window_deg * base::kRadPerDeg : config.window_m;
-      if (estimate.status == JointStatus::kFound && std::abs(estimate.value - span.value) > same) {
-        dissenters.push_back(i);
-      }
-    }
-    return dissenters;
-  }
-  /// Images read about this one, itself included.
-  [[nodiscard]] int readAbout(std::size_t shot, const std::vector<SeenFrame>& frames) const {
-    constexpr std::int64_t kAbout_ns = 500'000'000;
-    const auto stampOf = [&](const Shot& one) { return frames[static_cast<std::size_t>(one.index)].stamp_ns; };
-    return static_cast<int>(std::count_if(shots.begin(), shots.end(),
-                                          [&](const Shot& one) { return std::abs(stampOf(one) - stampOf(shots[shot])) <= kAbout_ns; }));
-  }
-  /// What one image alone says: there is nothing to hold it against.
-  [[nodiscard]] std::vector<JointSpan> loneSpan(std::size_t joint, const std::vector<SeenFrame>& frames) const {
-    const registration::JointEstimate& estimate = shots.front().joints[joint];
-    const std::int64_t stamp_ns = frames[static_cast<std::size_t>(shots.front().index)].stamp_ns;
-    if (estimate.status == JointStatus::kNotInView) {
-      return {};
-    }
-    return {{0, 0, stamp_ns, stamp_ns, estimate.status, estimate.value, estimate.variance, estimate.confidence}};
-  }
-
-  /// By joint of the registration.
-  [[nodiscard]] std::vector<std::vector<JointSpan>> spans(const std::vector<SeenFrame>& frames,
-                                                          const registration::JointFusionConfig& config) const {
-    std::vector<std::vector<JointSpan>> spans;
-    for (std::size_t joint = 0; !shots.empty() && joint < shots.front().joints.size(); ++joint) {
-      spans.push_back(shots.size() == 1 ? loneSpan(joint, frames) : registration::fuse(sightingsOf(shots, joint, frames), config));
-    }
-    return spans;
-  }
-};
-
 StateReader::StateReader(const semantic::Home& home, const std::filesystem::path& home_folder, const camera::PinholeCamera& camera,
                          const StateConfig& config, int threads, const std::string& only)
     : camera_(camera),
@@ -196,7 +69,7 @@ StateReader::StateReader(const semantic::Home& home, const std::filesystem::path
   OIKOS_CHECK(base::validateConfig(config).empty());
   config_.registration.threads = 1;  // the pieces of a frame share the threads
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    tracks_.push_back(std::make_unique<Track>());
+    tracks_.push_back(std::make_unique<PieceTrack>());
   }
 }
 
@@ -259,7 +132,7 @@ void StateReader::chooseFirst() {
 void StateReader::halve() {
   constexpr int kEnough = 5;  // images about a moment, to tell a misreading from a short stay
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
-    Track& track = *tracks_[p];
+    PieceTrack& track = *tracks_[p];
     const std::vector<std::vector<JointSpan>> spans = track.spans(frames_, config_.fusion);
     for (std::size_t j = 0; j < spans.size(); ++j) {
       for (std::size_t k = 0; k + 1 < spans[j].size(); ++k) {
@@ -308,7 +181,7 @@ void StateReader::read(const std::vector<camera::RgbdFrame>& frames) {
 }
 
 void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const registration::Scan& scan, const cv::Mat& depth_m) {
-  Track& track = *tracks_[piece];
+  PieceTrack& track = *tracks_[piece];
   const ArticulatedPiece& of = pieces_[piece];
   if (!track.registration) {
     track.registration = std::make_unique<registration::ArticulatedRegistration>(of.model, config_.registration);
@@ -320,37 +193,31 @@ void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const re
   registration::ArticulatedResult result = track.registration->run(scan, frame.T_map_camera, of.believed, context);
   track.handles->add({depth_m, camera_, frame.T_map_camera}, result);
   const int index = static_cast<int>(&frame - frames_.data());
-  const auto after = std::find_if(track.shots.begin(), track.shots.end(), [&](const Shot& shot) { return shot.index > index; });
-<<<<<<< HEAD
-  track.shots.insert(after, {index, result.status, {result.T_map_model, std::move(result.joint_values)}, std::move(result.joints)});
+  const bool is_in_place =
+      result.status == registration::BaseStatus::kRegistered && 2 * result.base_counts.agreeing > result.base_counts.read;
+  track.insert({index, result.status, is_in_place, {result.T_map_model, std::move(result.joint_values)}, std::move(result.joints)});
 }
 
 std::optional<registration::Standing> StateReader::standingIn(const camera::RgbdFrame& frame, int piece) {
   const SeenFrame& of = seen(frame.index);
   const int index = static_cast<int>(&of - frames_.data());
-  const std::vector<Shot>& shots = tracks_[static_cast<std::size_t>(piece)]->shots;
-  const auto find = [&] { return std::find_if(shots.begin(), shots.end(), [&](const Shot& shot) { return shot.index == index; }); };
-  if (find() == shots.end()) {
-    registerIn(static_cast<std::size_t>(piece), of, registration::makeScan(frame.depth_m, camera_, config_.scan), frame.depth_m);
+  const auto number = static_cast<std::size_t>(piece);
+  if (tracks_[number]->find(index) == nullptr) {
+    registerIn(number, of, registration::makeScan(frame.depth_m, camera_, config_.scan), frame.depth_m);
   }
-  const auto shot = find();
-  return shot->base == registration::BaseStatus::kNotThere ? std::nullopt : std::optional(shot->standing);
-=======
-  const bool is_in_place =
-      result.status == registration::BaseStatus::kRegistered && 2 * result.base_counts.agreeing > result.base_counts.read;
-  track.shots.insert(after, {index, result.status, is_in_place, std::move(result.joints)});
->>>>>>> 0a6274dd (What refutes a move: images most of whose readings are of the piece; drives are simulated of the home as deployed)
+  const PieceShot& shot = *tracks_[number]->find(index);
+  return shot.base == registration::BaseStatus::kNotThere ? std::nullopt : std::optional(shot.standing);
 }
 
 std::vector<PieceReading> StateReader::conclude() const {
   std::vector<PieceReading> readings;
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
-    const Track& track = *tracks_[p];
+    const PieceTrack& track = *tracks_[p];
     if (track.frames_in_view == 0) {
       continue;
     }
     PieceReading reading{pieces_[p].id, track.frames_in_view, static_cast<int>(track.shots.size()), 0, 0, {}, {}};
-    for (const Shot& shot : track.shots) {
+    for (const PieceShot& shot : track.shots) {
       reading.in_place += shot.is_in_place ? 1 : 0;
       reading.not_there += shot.base == registration::BaseStatus::kNotThere ? 1 : 0;
     }
@@ -359,7 +226,7 @@ std::vector<PieceReading> StateReader::conclude() const {
       const semantic::Joint& joint = pieces_[p].joints[static_cast<std::size_t>(track.shots.front().joints[j].joint)];
       JointReading of_joint{joint.id, joint.type, {}};
       for (const JointSpan& span : spans[j]) {
-        JointStay stay = stayOf(span, track.shots, j, frames_);
+        JointStay stay = track.stayOf(span, j, frames_);
         stay.crop = cropOf(pieces_[p], track.shots.front().joints[j].joint, span.value, seen(stay.best_frame).T_map_camera, camera_);
         of_joint.stays.push_back(stay);
       }

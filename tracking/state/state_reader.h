@@ -17,23 +17,11 @@
 #include "tracking/state/articulated_pieces.h"
 #include "tracking/state/piece_handles.h"
 #include "tracking/state/piece_surroundings.h"
+#include "tracking/state/piece_track.h"
 #include "tracking/state/piece_views.h"
 #include "tracking/state/state_config.h"
 
 namespace oikos::tracking {
-
-/// A time in which a joint stood still.
-struct JointStay {
-  registration::JointSpan span;  ///< its indices mean nothing here
-  std::int64_t first_ns = 0;     ///< of the first image that has found it by itself; if none has: of the first that may show it
-  int first_frame = 0;           ///< that image, of the recording
-  int images = 0;
-  int found = 0;                ///< of these, images that have found it by themselves
-  int best_frame = 0;           ///< that shows most of the part,
-  registration::PixelBox crop;  ///< and where the piece is in it
-
-  [[nodiscard]] bool isFound() const { return span.status == registration::JointStatus::kFound; }
-};
 
 /// What a recording says of a joint.
 struct JointReading {
@@ -88,8 +76,6 @@ class StateReader {
   [[nodiscard]] const SeenFrame& seen(int frame) const;
 
  private:
-  struct Track;
-
   void chooseFirst();
   void halve();
   void registerIn(std::size_t piece, const SeenFrame& frame, const registration::Scan& scan, const cv::Mat& depth_m);
@@ -101,7 +87,7 @@ class StateReader {
   std::vector<ArticulatedPiece> pieces_;
   HomeSurroundings surroundings_;
   std::vector<SeenFrame> frames_;
-  std::vector<std::unique_ptr<Track>> tracks_;  ///< by piece
+  std::vector<std::unique_ptr<PieceTrack>> tracks_;  ///< by piece
   bool has_chosen_ = false;
   int halvings_ = 0;
 };
