@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/recording/frame_stream.h"
 #include "tracking/state/base_check.h"
+#include "tracking/state/object_readings.h"
 
 namespace oikos::tracking {
 
@@ -155,6 +156,11 @@ RecordingStates readStates(const recording::Recording& recording, const StateToo
     states.registrations += piece.images;
   }
   states.furniture = placesOf(recording, tools, states.pieces);
+  states.objects = readObjects(states, recording.camera(), tools, [&](int number) {
+    camera::RgbdFrame frame = recording.read(number, recording::Channels::kGray);
+    refine(frame, tools.localiser, tools.reader);
+    return frame;
+  });
   states.reading_s = secondsSince(located);
   return states;
 }

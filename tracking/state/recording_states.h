@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole recording: where it was, and what it says of doors, drawers, knobs and shiftable furniture.
+// A whole recording: where it was, and what it says of doors, drawers, knobs, shiftable furniture and small objects.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include "semantic/model/home.h"
 #include "tracking/furniture/furniture_places.h"
 #include "tracking/localisation/localiser.h"
+#include "tracking/objects/missed_test.h"
 #include "tracking/state/knob_watch.h"
 #include "tracking/state/state_config.h"
 #include "tracking/state/state_reader.h"
@@ -28,6 +29,7 @@ struct RecordingStates {
   std::vector<PieceReading> pieces;
   std::vector<FurniturePlace> furniture;  ///< of shiftable pieces, those whose views agree
   std::vector<TrackedKnob> knobs;
+  std::vector<ObjectReading> objects;  ///< small ones that were looked for
 };
 
 /// Every how many frames one is looked at, so that there are no more than `most_hz` in a second.

@@ -9,6 +9,7 @@
 #include "registration/articulated/joint_fusion.h"
 #include "registration/scan.h"
 #include "tracking/furniture/moved_furniture.h"
+#include "tracking/objects/object_config.h"
 #include "tracking/state/knob_track_config.h"
 #include "tracking/state/piece_handles.h"
 
@@ -101,6 +102,7 @@ struct StateConfig {
   MovedFurnitureConfig furniture;  ///< of shiftable pieces
   KnobTrackConfig knobs;
   HandleTrackConfig handles;
+  ObjectWatchConfig objects;  ///< small ones
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -113,6 +115,7 @@ struct StateConfig {
     visitor("furniture", furniture);
     visitor("knobs", knobs);
     visitor("handles", handles);
+    visitor("objects", objects);
   }
   [[nodiscard]] std::vector<std::string> validate() const { return {}; }
 };

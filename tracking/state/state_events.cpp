@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/degrees.h"
+#include "tracking/objects/missed_events.h"
 #include "tracking/state/joint_changes.h"
 #include "tracking/state/knob_events.h"
 
@@ -112,6 +113,12 @@ std::vector<StateEvent> stateEvents(const RecordingStates& states, const semanti
       if (auto event = moveOf(place, *object, source, config.furniture)) {
         events.push_back(*std::move(event));
       }
+    }
+  }
+  for (const ObjectReading& reading : states.objects) {
+    if (auto event = missedEvent(reading, believed, source.start_ns)) {
+      event->recording = source.recording;
+      events.push_back({*std::move(event), reading.id, "missed", 0.0, reading.evidence_frame, reading.crop});
     }
   }
   std::stable_sort(events.begin(), events.end(),

@@ -17,8 +17,8 @@ namespace oikos::tracking {
 struct StateEvent {
   semantic::Event event;  ///< without `evidence`
   semantic::ObjectId object;
-  std::string word;             ///< opened, closed, moved, turned
-  double sigma = 0.0;           ///< of what stands in `after`: rad of a hinge, else m; of a knob: 0
+  std::string word;             ///< opened, closed, moved, turned, missed
+  double sigma = 0.0;           ///< of what stands in `after`: rad of a hinge, else m; 0 of a knob and of what is missed
   int evidence_frame = 0;       ///< the picture that shows it best,
   registration::PixelBox crop;  ///< and where; empty: all of it
 };
@@ -29,7 +29,8 @@ struct EventSource {
 };
 
 /// `believed`: the home as it was known to be when the recording was made. What it no longer has is passed over. In the order of time, then
-/// doors and drawers before furniture, each in the home's order.
+/// doors and drawers before furniture before small objects, each in the home's order. A miss is an event whatever the history has said
+/// before: see isKnown().
 [[nodiscard]] std::vector<StateEvent> stateEvents(const RecordingStates& states, const semantic::Home& believed, const EventSource& source,
                                                   const StateConfig& config);
 

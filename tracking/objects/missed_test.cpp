@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/objects/missed_test.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oikos::tracking {
+
+namespace {
+
+int countOf(const std::vector<TimedSight>& sights, SightVerdict verdict) {
+  return static_cast<int>(std::count_if(sights.begin(), sights.end(), [&](const TimedSight& one) { return one.sight.verdict == verdict; }));
+}
+
+/// Those that do not see it, after all that have something in its place.
+std::vector<const TimedSight*> missesOf(const std::vector<TimedSight>& sights) {
+  std::vector<const TimedSight*> misses;
+  for (const TimedSight& one : sights) {
+    if (one.sight.verdict == SightVerdict::kThere) {
+      misses.clear();
+    } else if (one.sight.verdict == SightVerdict::kNotThere) {
+      misses.push_back(&one);
+    }
+  }
+  return misses;
+}
+
+/// How many of them were taken from places apart, in the order of time.
+int countApart(const std::vector<const TimedSight*>& misses, double apart_m) {
+  std::vector<const TimedSight*> apart;
+  for (const TimedSight* const one : misses) {
+    const bool is_apart = std::all_of(apart.begin(), apart.end(),
+                                      [&](const TimedSight* other) { return (one->camera_map - other->camera_map).norm() >= apart_m; });
+    if (is_apart) {
+      apart.push_back(one);
+    }
+  }
+  return static_cast<int>(apart.size());
+}
+
+}  // namespace
+
+ObjectReading testMissed(const std::vector<TimedSight>& sights, double apart_m, const MissedTestConfig& config) {
+  ObjectReading reading;
+  reading.views = static_cast<int>(sights.size());
+  reading.there = countOf(sights, SightVerdict::kThere);
+  reading.not_there = countOf(sights, SightVerdict::kNotThere);
+  reading.hidden = countOf(sights, SightVerdict::kHidden);
+  const std::vector<const TimedSight*> misses = missesOf(sights);
+  const int apart = countApart(misses, apart_m);
+  const double chance = std::pow(config.misread, apart);
+  if (apart >= config.min_views && chance <= config.max_chance) {
+    const TimedSight& best = **std::max_element(
+        misses.begin(), misses.end(), [](const TimedSight* a, const TimedSight* b) { return a->sight.through < b->sight.through; });
+    reading.status = WatchStatus::kMissed;
+    reading.confidence = 1.0 - chance;
+    reading.stamp_ns = misses.front()->stamp_ns;
+    reading.frame = misses.front()->frame;
+    reading.evidence_frame = best.frame;
+    reading.crop = best.sight.crop;
+  } else if (misses.empty() && reading.there > 0) {
+    reading.status = WatchStatus::kThere;
+  } else if (misses.empty() && reading.hidden > 0) {
+    reading.status = WatchStatus::kHidden;
+  }
+  return reading;
+}
+
+}  // namespace oikos::tracking
