@@ -47,6 +47,8 @@ void declareOptions(CLI::App& command, TrackOptions& options) {
   command.add_option("HOME", task.home, "the home's folder, with its map")->required();
   command.add_option("RECORDING", task.recordings, "folders of drives: TUM RGB-D or 7-Scenes")->required();
   command.add_flag("--dry-run", task.is_dry, "say what would be written, and write nothing");
+  command.add_flag("--changes", task.has_changes,
+                   "also say what is new or gone against the map and is not explained otherwise; recalls the whole map");
   command.add_option("--object", task.object, "read this one piece of furniture");
   command.add_option("--jobs", task.jobs, "recordings that are read at the same time; the events do not depend on it")
       ->check(CLI::Range(1, 64))
@@ -110,12 +112,12 @@ ExitCode track(const TrackOptions& options, const Session& session) {
     if (recording.status == TrackStatus::kFailed) {
       std::cerr << "oikos: " << recording.problem << '\n';
     } else if (!session.options.json) {
-      printText(recording, task.is_dry);
+      printText(recording, task);
     }
   };
   const TrackOutcome outcome = trackRecordings(task, session, done);
   if (session.options.json) {
-    std::cout << toJson(outcome, task.is_dry).dump(2) << '\n';
+    std::cout << toJson(outcome, task).dump(2) << '\n';
   }
   if (!outcome.checkpoint_problem.empty()) {
     std::cerr << "oikos: home.xml is left to be written: " << outcome.checkpoint_problem << '\n';
@@ -126,8 +128,9 @@ ExitCode track(const TrackOptions& options, const Session& session) {
 }  // namespace
 
 void addTrackCommand(CLI::App& root) {
-  CLI::App& command = addCommand(
-      root, {"track", "Reads doors, drawers and knobs in recorded drives and notes in the home what has changed.", kExamples, true});
+  CLI::App& command =
+      addCommand(root, {"track", "Reads doors, drawers, knobs and small objects in recorded drives and notes in the home what has changed.",
+                        kExamples, true});
   const auto options = std::make_shared<TrackOptions>();
   declareOptions(command, *options);
   setAction(command, [options](const Session& session) { return track(*options, session); });

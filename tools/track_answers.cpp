@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/track_answers.h"
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -50,18 +52,28 @@ std::string stateText(const semantic::State& state) {
   if (const auto* const knob = std::get_if<semantic::KnobSetting>(&state)) {
     return "'" + knob->state + "'";
   }
+  if (const auto* const placement = std::get_if<semantic::Placement>(&state)) {
+    return std::string(base::toString(placement->relation)) + " " + placement->parent;
+  }
   const auto& pose = std::get<semantic::FurniturePose>(state).T_map_object;
   return "(" + toFixedText(pose.position_m.x(), 2) + ", " + toFixedText(pose.position_m.y(), 2) + ", " +
          toFixedText(pose.roll_pitch_yaw_rad.z() / base::kRadPerDeg, 1) + " deg)";
 }
 
 void printEvent(const tracking::StateEvent& event) {
+  std::cout << "  " << padded(event.event.subject, 34) << padded(event.word, 7) << "  ";
   const auto* const joint = std::get_if<semantic::JointValue>(&*event.event.after);
   const semantic::JointType type = joint != nullptr ? joint->type : semantic::JointType::kPrismatic;
-  const std::string sigma = event.event.kind == semantic::EventKind::kKnob ? "" : " +- " + valueText(event.sigma, type);
-  std::cout << "  " << padded(event.event.subject, 34) << padded(event.word, 7) << "  " << stateText(*event.event.before) << " -> "
-            << stateText(*event.event.after) << sigma << "  " << base::toRfc3339(event.event.time_ns) << ", frame " << *event.event.frame
-            << ", sure to " << toFixedText(100.0 * event.event.confidence, 1) << " %\n";
+  if (event.event.kind == semantic::EventKind::kMissed) {
+    std::cout << "not " << stateText(*event.event.after);
+  } else {
+    std::cout << stateText(*event.event.before) << " -> " << stateText(*event.event.after);
+  }
+  if (event.sigma > 0.0) {
+    std::cout << " +- " << valueText(event.sigma, type);
+  }
+  std::cout << "  " << base::toRfc3339(event.event.time_ns) << ", frame " << *event.event.frame << ", sure to "
+            << toFixedText(100.0 * event.event.confidence, 1) << " %\n";
 }
 
 /// Every joint in view, with its value at the recording's end.
@@ -206,7 +218,53 @@ Json furnitureJson(const tracking::FurniturePlace& place) {
           {"fit", place.fit}};
 }
 
-Json recordingJson(const TrackedRecording& recording) {
+Json metres(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+Json changesJson(const TrackedRecording& recording) {
+  Json changes = Json::array();
+  for (std::size_t i = 0; i < recording.changes.size(); ++i) {
+    const auto& [change, piece, frame, crop] = recording.changes[i];
+    Json one = {{"kind", base::toString(change.kind)}, {"center_map_m", metres(change.center_map)}, {"size_m", metres(change.size_m)}};
+    one["support_height_m"] = change.support_height_m ? Json(*change.support_height_m) : Json(nullptr);
+    one["confidence"] = change.confidence;
+    one["piece"] = piece.empty() ? Json(nullptr) : Json(piece);
+    one["frame"] = frame;
+    if (i < recording.pictures.size()) {
+      one["picture"] = recording.pictures[i];
+    }
+    changes.push_back(std::move(one));
+  }
+  return changes;
+}
+
+void printChange(const tracking::ChangeBox& box) {
+  const Eigen::Vector3d& center = box.change.center_map;
+  const Eigen::Vector3d& size = box.change.size_m;
+  std::cout << "  " << padded(std::string(base::toString(box.change.kind)), 5) << "at (" << toFixedText(center.x(), 2) << ", "
+            << toFixedText(center.y(), 2) << ", " << toFixedText(center.z(), 2) << "), " << toFixedText(size.x(), 2) << " x "
+            << toFixedText(size.y(), 2) << " x " << toFixedText(size.z(), 2) << " m" << (box.piece.empty() ? "" : ", of " + box.piece)
+            << ", frame " << box.frame << ", sure to " << toFixedText(100.0 * box.change.confidence, 1) << " %\n";
+}
+
+Json objectJson(const tracking::ObjectReading& object, std::int64_t start_ns) {
+  Json json = {{"id", object.id.value},
+               {"status", base::toString(object.status)},
+               {"parent", object.placement.parent},
+               {"images", object.views},
+               {"there", object.there},
+               {"not_there", object.not_there},
+               {"hidden", object.hidden}};
+  if (object.status == tracking::WatchStatus::kMissed) {
+    json["confidence"] = object.confidence;
+    json["from"] = base::toRfc3339(start_ns + object.stamp_ns);
+    json["frame"] = object.frame;
+  }
+  return json;
+}
+
+Json recordingJson(const TrackedRecording& recording, bool has_changes) {
   Json json = {{"recording", recording.folder.string()}, {"status", base::toString(recording.status)}};
   if (!recording.name.empty()) {
     json["name"] = recording.name;
@@ -241,17 +299,27 @@ Json recordingJson(const TrackedRecording& recording) {
   for (const tracking::FurniturePlace& place : states.furniture) {
     json["furniture"].push_back(furnitureJson(place));
   }
+  if (has_changes) {
+    json["comparing_s"] = recording.comparing_s;
+    json["changes"] = changesJson(recording);
+  }
+  json["objects"] = Json::array();
+  for (const tracking::ObjectReading& object : states.objects) {
+    json["objects"].push_back(objectJson(object, recording.start_ns));
+  }
   return json;
 }
 
 }  // namespace
 
 std::string eventText(const tracking::StateEvent& event) {
-  return event.event.subject + " " + event.word + " " + (event.event.before ? stateText(*event.event.before) + " -> " : "") +
-         stateText(*event.event.after);
+  if (event.event.kind == semantic::EventKind::kMissed) {
+    return event.event.subject + " missed, not " + stateText(*event.event.after);
+  }
+  return event.event.subject + " " + event.word + " " + stateText(*event.event.before) + " -> " + stateText(*event.event.after);
 }
 
-void printText(const TrackedRecording& recording, bool is_dry) {
+void printText(const TrackedRecording& recording, const TrackTask& task) {
   const std::string folder = recording.folder.string();
   if (recording.status == TrackStatus::kKnown) {
     std::cout << folder << ": was tracked before, as '" << recording.name << "'\n";
@@ -264,24 +332,29 @@ void printText(const TrackedRecording& recording, bool is_dry) {
   if (states.unreadable > 0) {
     std::cout << "  " << states.unreadable << " frames could not be read\n";
   }
-  if (is_dry) {
+  if (task.is_dry) {
     printReadings(states);
     printKnobs(states);
     printHandles(states);
   }
   std::cout << "  " << recording.events.size() << (recording.events.size() == 1 ? " event" : " events")
-            << (is_dry ? " would be written\n" : "\n");
+            << (task.is_dry ? " would be written\n" : "\n");
   for (const tracking::StateEvent& event : recording.events) {
     printEvent(event);
   }
+  if (task.has_changes) {
+    std::cout << "  " << recording.changes.size() << " changes against the map that nothing explains\n";
+    std::for_each(recording.changes.begin(), recording.changes.end(), printChange);
+  }
 }
 
-nlohmann::ordered_json toJson(const TrackOutcome& outcome, bool is_dry) {
+nlohmann::ordered_json toJson(const TrackOutcome& outcome, const TrackTask& task) {
   Json recordings = Json::array();
   for (const TrackedRecording& recording : outcome.recordings) {
-    recordings.push_back(recordingJson(recording));
+    recordings.push_back(recordingJson(recording, task.has_changes));
   }
-  return {{"dry_run", is_dry}, {"home_xml_is_written", !is_dry && outcome.checkpoint_problem.empty()}, {"recordings", recordings}};
+  return {
+      {"dry_run", task.is_dry}, {"home_xml_is_written", !task.is_dry && outcome.checkpoint_problem.empty()}, {"recordings", recordings}};
 }
 
 }  // namespace oikos::tools

@@ -13,9 +13,9 @@ namespace oikos::tools {
 [[nodiscard]] std::string eventText(const tracking::StateEvent& event);
 
 /// On stdout, for a person.
-void printText(const TrackedRecording& recording, bool is_dry);
+void printText(const TrackedRecording& recording, const TrackTask& task);
 
 /// Metres and degrees, times RFC 3339.
-[[nodiscard]] nlohmann::ordered_json toJson(const TrackOutcome& outcome, bool is_dry);
+[[nodiscard]] nlohmann::ordered_json toJson(const TrackOutcome& outcome, const TrackTask& task);
 
 }  // namespace oikos::tools

@@ -17,6 +17,7 @@
 #include "tools/interrupts.h"
 #include "tools/locate_job.h"
 #include "tools/terminal_progress.h"
+#include "tracking/objects/missed_events.h"
 
 namespace oikos::tools {
 
@@ -73,7 +74,7 @@ std::string nameOf(const Job& job, const std::vector<std::string>& taken) {
 class Batch {
  public:
   Batch(const TrackTask& task, const Session& session, const std::function<void(const TrackedRecording&)>& done)
-      : task_(task), session_(session), done_(done), progress_(session.options) {
+      : task_(task), session_(session), done_(done), progress_(session.options), changes_(task.home / "map", task.config.changes) {
     takeEdits();
     home_ = semantic::loadHome(task.home);
     history_ = std::make_unique<semantic::History>(task.home / "history.sqlite",
@@ -158,8 +159,20 @@ class Batch {
     tracking::Localiser localiser = workshop.makeLocaliser();
     tracking::StateReader reader(home_, task_.home, job.recording->camera(), task_.config.states, threads, task_.object);
     result.opening_s = std::chrono::duration<double>(Clock::now() - begin).count();
-    result.states = tracking::readStates(*job.recording, {home_, task_.home, localiser, reader, task_.config.states, threads, task_.object,
-                                                          task_.jobs == 1 ? progress_.sink() : base::ProgressSink()});
+    const tracking::StateTools tools{home_,
+                                     task_.home,
+                                     localiser,
+                                     reader,
+                                     task_.config.states,
+                                     threads,
+                                     task_.object,
+                                     task_.jobs == 1 ? progress_.sink() : base::ProgressSink()};
+    result.states = tracking::readStates(*job.recording, tools);
+    if (task_.has_changes && result.states.found > 0) {
+      const auto read = Clock::now();
+      result.changes = changes_.find(*job.recording, result.states, tools);
+      result.comparing_s = std::chrono::duration<double>(Clock::now() - read).count();
+    }
     result.status = result.states.found > 0 ? TrackStatus::kTracked : TrackStatus::kNotFound;
   }
 
@@ -184,10 +197,11 @@ class Batch {
     }
     const semantic::Home current = semantic::loadHome(task_.home);
     semantic::HomeState believed(semantic::homeAt(current, *history_, job.time_ns));
-    for (const semantic::Event& event : dry_events_) {
+    for (const semantic::Event& event : dry_events_) {  // a miss says where it is believed to be: nothing new
       believed.set(event.subject, *event.after);
     }
     result.events = tracking::stateEvents(result.states, believed.home(), {result.name, result.start_ns}, task_.config.states);
+    std::erase_if(result.events, [&](const tracking::StateEvent& event) { return isMissedAlready(event.event); });
     if (task_.is_dry) {
       for (const tracking::StateEvent& event : result.events) {
         dry_events_.push_back(event.event);
@@ -198,13 +212,27 @@ class Batch {
                                          "interrupted; what was folded in stays, and the rest is tracked when the command is given again");
   }
 
+  /// It was missed at that place before, and nothing was heard of it since.
+  [[nodiscard]] bool isMissedAlready(const semantic::Event& event) const {
+    if (event.kind != semantic::EventKind::kMissed) {
+      return false;
+    }
+    return tracking::isKnown(event, *history_) || std::any_of(dry_events_.begin(), dry_events_.end(), [&](const semantic::Event& one) {
+             return one.subject == event.subject && one.kind == event.kind && one.after == event.after;
+           });
+  }
+
   /// Pictures first: an event's evidence is there when the event is.
   void commit(Job& job, const semantic::HomeState& state) {
     TrackedRecording& result = job.result;
     std::vector<semantic::Event> events;
     for (tracking::StateEvent& event : result.events) {
-      event.event.evidence = writeEvidence(job, event);
+      event.event.evidence = writeEvidence(job, {event.event.subject, event.evidence_frame, *event.event.frame, event.crop});
       events.push_back(event.event);
+    }
+    for (std::size_t i = 0; i < result.changes.size(); ++i) {
+      const tracking::ChangeBox& box = result.changes[i];
+      result.pictures.push_back(writeEvidence(job, {"change-" + std::to_string(i + 1), box.frame, box.frame, box.crop}));
     }
     std::map<std::string, semantic::State> changed;
     semantic::prepareForCommit(events, state, changed);
@@ -223,12 +251,18 @@ class Batch {
     }
   }
 
-  std::string writeEvidence(const Job& job, const tracking::StateEvent& event) const {
-    const registration::PixelBox& box = event.crop;
-    const cv::Mat color = job.recording->read(event.evidence_frame, recording::Channels::kColor).color;
+  struct Picture {
+    std::string subject;
+    int frame = 0;           ///< that is shown,
+    std::int64_t named = 0;  ///< and that it is named after
+    registration::PixelBox box;
+  };
+  std::string writeEvidence(const Job& job, const Picture& picture) const {
+    const registration::PixelBox& box = picture.box;
+    const cv::Mat color = job.recording->read(picture.frame, recording::Channels::kColor).color;
     const cv::Rect crop = cv::Rect(cv::Point(box.left, box.top), cv::Point(box.right, box.bottom)) & cv::Rect(cv::Point(), color.size());
     const std::vector<unsigned char> jpeg = recording::encodeJpeg((crop.empty() ? color : color(crop)).clone(), kEvidenceQuality);
-    const std::string path = "evidence/" + job.result.name + "/" + event.event.subject + "-" + std::to_string(*event.event.frame) + ".jpg";
+    const std::string path = "evidence/" + job.result.name + "/" + picture.subject + "-" + std::to_string(picture.named) + ".jpg";
     fs::create_directories((task_.home / path).parent_path());
     base::writeFileAtomically(task_.home / path, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
     return path;
@@ -248,6 +282,7 @@ class Batch {
   const Session& session_;
   const std::function<void(const TrackedRecording&)>& done_;
   TerminalProgress progress_;
+  ChangeWatch changes_;
   semantic::Home home_;  ///< as it was at the batch's start: what all recordings see
   std::unique_ptr<semantic::History> history_;
   std::vector<std::unique_ptr<Job>> jobs_;  ///< in the order of time

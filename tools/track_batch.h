@@ -17,6 +17,7 @@
 #include "tools/command.h"
 #include "tools/floor_place.h"
 #include "tools/mount_options.h"
+#include "tools/track_changes.h"
 #include "tracking/localisation/localiser.h"
 #include "tracking/state/recording_states.h"
 #include "tracking/state/state_events.h"
@@ -26,11 +27,13 @@ namespace oikos::tools {
 struct TrackConfig {
   tracking::LocaliseConfig locate;
   tracking::StateConfig states;
+  TrackChangesConfig changes;
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
     visitor("locate", locate);
     visitor("states", states);
+    visitor("changes", changes);
   }
   [[nodiscard]] std::vector<std::string> validate() const { return {}; }
 };
@@ -44,9 +47,10 @@ struct TrackTask {
   std::filesystem::path prior = {};           ///< TUM file, `T_map_base`; of a single recording
   std::optional<FloorPlace> from = {};        ///< likewise
   MountOptions mount = {};
-  std::string object = {};  ///< one piece on demand; empty: all
-  bool is_dry = false;      ///< nothing is written
-  int jobs = 1;             ///< recordings that are read at the same time
+  std::string object = {};   ///< one piece on demand; empty: all
+  bool is_dry = false;       ///< nothing is written
+  bool has_changes = false;  ///< also what the map does not explain
+  int jobs = 1;              ///< recordings that are read at the same time
 };
 
 enum class TrackStatus {
@@ -74,6 +78,9 @@ struct TrackedRecording {
   double opening_s = 0.0;           ///< of map and home
   tracking::RecordingStates states;
   std::vector<tracking::StateEvent> events;  ///< committed, unless the run is dry
+  double comparing_s = 0.0;                  ///< with the map, and recalling it
+  std::vector<tracking::ChangeBox> changes;  ///< if they were asked for
+  std::vector<std::string> pictures;         ///< of these, below the home; empty in a dry run
 };
 
 struct TrackOutcome {
