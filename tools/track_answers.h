@@ -12,6 +12,9 @@ namespace oikos::tools {
 /// "fridge-door-joint opened 0.0 deg -> 70.2 deg".
 [[nodiscard]] std::string eventText(const tracking::StateEvent& event);
 
+/// Of the recording, while it was located and read.
+[[nodiscard]] double framesPerSecond(const tracking::RecordingStates& states);
+
 /// On stdout, for a person.
 void printText(const TrackedRecording& recording, const TrackTask& task);
 
