@@ -10,8 +10,11 @@ namespace {
 
 void takeInOrder(Recalled& recalled, const Event& event) {
   recalled.newest_ns = event.time_ns;
-  if (event.after && event.kind != EventKind::kMissed && event.kind != EventKind::kForgotten) {
+  if (event.kind == EventKind::kMissed && event.after) {
+    recalled.missed = event;
+  } else if (event.after && event.kind != EventKind::kMissed && event.kind != EventKind::kForgotten) {
     recalled.state = event;
+    recalled.missed.reset();
   }
   if (recalled.belief) {
     recalled.belief->take(event);

@@ -20,6 +20,7 @@ namespace oikos::semantic {
 struct Recalled {
   std::optional<Event> state;             ///< the newest that says something of its state
   std::optional<BeliefFilter> belief;     ///< nothing: it is no small object, or nothing is known of when it was anywhere
+  std::optional<Event> missed;            ///< of a small object: the newest miss, if nothing has told of its place since
   std::optional<std::int64_t> newest_ns;  ///< of all; nothing: there are none
 };
 

@@ -162,6 +162,10 @@ void AnswerContext::remember(const std::string& subject, const Thing& thing, Fou
   if (const std::optional<Event>& event = recalled->state) {
     described.evidence = Evidence{event->number, event->recording, event->frame, event->evidence};
   }
+  const auto* const looked = recalled->missed ? std::get_if<Placement>(&*recalled->missed->after) : nullptr;
+  if (looked != nullptr && looked->parent == described.parent && looked->relation == described.relation) {
+    described.missed_ns = recalled->missed->time_ns;
+  }
   if (recalled->belief) {
     setBelief(recalled->belief->at(moment_ns()), described);
   }

@@ -32,6 +32,15 @@ bool isChange(const History& history, const Event& event) {
   return !before || EventTeller::isChange(*before, *event.after);
 }
 
+/// Whether it is news that the thing was not where it was expected: a miss changes no state, but a person wants to hear of the first.
+bool isFirstMiss(const History& history, const Event& event) {
+  if (event.kind != EventKind::kMissed) {
+    return false;
+  }
+  const std::vector<Event> earlier = history.lastEventsOf(event.subject, event.time_ns - 1, 1);
+  return earlier.empty() || earlier.back().kind != EventKind::kMissed || earlier.back().after != event.after;
+}
+
 /// Whether a change led to the state that was asked for, "open" or "closed"; empty: any will do.
 bool ledTo(const std::string& state, const History& history, EventTeller& teller, const Event& event) {
   if (state.empty()) {
@@ -228,7 +237,8 @@ void answerChanges(AnswerContext& ctx) {
   EventTeller teller(ctx.index());
   std::vector<Event> events = ctx.history()->eventsBetween({span.from_ns, std::max(span.to_ns, span.from_ns + 1)});
   std::erase_if(events, [&](const Event& event) {
-    return !isChange(*ctx.history(), event) || !isAskedFor(ctx, event, teller.thingOf(event.subject), *asked);
+    return !(isChange(*ctx.history(), event) || isFirstMiss(*ctx.history(), event)) ||
+           !isAskedFor(ctx, event, teller.thingOf(event.subject), *asked);
   });
   Things changed;
   std::vector<std::string> texts;

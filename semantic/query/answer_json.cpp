@@ -119,7 +119,7 @@ Json evidenceJson(const std::optional<Evidence>& evidence) {
 }
 
 Json thingJson(const FoundThing& found) {
-  return Members(20)
+  return Members(21)
       .add("id", found.id)
       .add("name", found.name)
       .add("type", textOrNull(found.type))
@@ -136,6 +136,7 @@ Json thingJson(const FoundThing& found) {
       .add("usual_places", listJson(found.usual_places, placementJson))
       .add("setting", textOrNull(found.setting))
       .add("last_seen", timeOrNull(found.last_seen_ns))
+      .add("missed", timeOrNull(found.missed_ns))
       .add("confidence", probabilityOrNull(found.confidence))
       .add("expected_at", listJson(found.expected_at, expectedJson))
       .add("elsewhere", probabilityOrNull(found.elsewhere))

@@ -68,6 +68,12 @@ std::string propertyOf(const Thing& thing, const std::string& name) {
                                                       : thing.room->type);
 }
 
+/// That the only found thing was not there when it was looked for; empty: it was not missed.
+std::string missedText(const AnswerContext& ctx) {
+  const std::optional<std::int64_t>& missed_ns = ctx.answer.found.front().missed_ns;
+  return missed_ns ? ", but was looked for there in vain " + ctx.clock().text(*missed_ns) : "";
+}
+
 /// Where the only found thing is likelier than where it was last; empty: nowhere.
 std::string likelierText(const AnswerContext& ctx) {
   const FoundThing& found = ctx.answer.found.front();
@@ -95,7 +101,7 @@ void answerWhere(AnswerContext& ctx) {
   if (thing.kind == ThingKind::kSmallObject && thing.small_object->last_seen_ns && !ctx.answer.at_ns) {
     sentence += ", last seen " + ctx.clock().text(*thing.small_object->last_seen_ns);
   }
-  ctx.say(sentence + likelierText(ctx) + ".");
+  ctx.say(sentence + missedText(ctx) + likelierText(ctx) + ".");
 }
 
 void answerUsualPlace(AnswerContext& ctx) {

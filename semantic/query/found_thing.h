@@ -55,6 +55,7 @@ struct FoundThing {
   std::vector<Placement> usual_places;
   std::string setting;  ///< of a knob
   std::optional<std::int64_t> last_seen_ns;
+  std::optional<std::int64_t> missed_ns;      ///< of a small object: when it was looked for there in vain, if nothing was heard of it since
   std::optional<double> confidence;           ///< of a small object: the probability that it is there still
   std::vector<PlaceProbability> expected_at;  ///< from 0.01 on, the most probable first
   std::optional<double> elsewhere;            ///< the probability of a place where it was never seen and does not belong

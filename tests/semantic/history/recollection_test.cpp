@@ -52,6 +52,7 @@ class RecollectionTest : public testing::Test {
 
 void expectSame(const Recalled& a, const Recalled& b) {
   EXPECT_EQ(a.newest_ns, b.newest_ns);
+  EXPECT_EQ(a.missed.has_value() ? a.missed->time_ns : -1, b.missed.has_value() ? b.missed->time_ns : -1);
   ASSERT_EQ(a.state.has_value(), b.state.has_value());
   if (a.state) {
     EXPECT_EQ(a.state->number, b.state->number);
@@ -102,6 +103,17 @@ TEST_F(RecollectionTest, IsAsReadFromTheHistoryWhateverComesInWhateverOrder) {
       expectSame(*recall(), readAgain());
     }
   }
+}
+
+TEST_F(RecollectionTest, AMissCountsUntilSomethingIsHeardOfThePlace) {
+  EXPECT_FALSE(recall()->missed);
+  happens(placed(EventKind::kSighted, "table", 1));
+  happens(placed(EventKind::kMissed, "table", 2));
+  ASSERT_TRUE(recall()->missed);
+  EXPECT_EQ(recall()->missed->time_ns, 2);
+  EXPECT_EQ(recall()->state.value().time_ns, 1) << "it changes no state";
+  happens(placed(EventKind::kSighted, "table", 3));
+  EXPECT_FALSE(recall()->missed);
 }
 
 TEST_F(RecollectionTest, ForgottenEvidenceIsNotRecalled) {

@@ -9,6 +9,7 @@
 
 #include "semantic/xml/home_reader.h"
 #include "tests/support/enum_table_check.h"
+#include "tests/support/temporary_folder.h"
 
 namespace oikos::semantic {
 namespace {
@@ -219,6 +220,41 @@ TEST(Answer, WhatWasSeenLongAgoIsLessSureAndMayBeExpectedElsewhere) {
   EXPECT_EQ(yesterday.expected_at.front().place.parent, cup.parent);
   home.vocabulary.edit().add(TermKind::kObjectType, {"cup", {}, 24000.0});
   EXPECT_GT(ask(home, "where is the blue cup").found.at(0).confidence.value(), 0.999) << "cups stay longer in this home";
+}
+
+TEST(Answer, WhatWasMissedIsSaidToHaveBeenLookedForInVain) {
+  const Home home = papersHouse();
+  const HomeIndex index(home);
+  const test::TemporaryFolder folder;
+  History history(folder.path() / "history.sqlite", HistoryAccess::kAppend);
+  const SmallObject& cup = home.rooms[0].objects[0]->small_objects[3];
+  ASSERT_EQ(cup.id.value, "blue-cup");
+  Event missed;
+  missed.kind = EventKind::kMissed;
+  missed.subject = cup.id.value;
+  missed.time_ns = kNow_ns - 3'600'000'000'000;
+  missed.after = Placement{cup.parent, cup.relation, cup.T_parent_object};
+  missed.confidence = 0.999;
+  history.append(std::vector{missed});
+  const Answer answer = answerQuestion({&index, &history, kNow_ns, std::nullopt}, "where is the blue cup");
+  EXPECT_NE(answer.sentence.find("but was looked for there in vain"), std::string::npos) << answer.sentence;
+  EXPECT_EQ(answer.found.at(0).missed_ns, missed.time_ns);
+  EXPECT_FALSE(nlohmann::json::parse(toJson(answer))["found"][0]["missed"].is_null());
+  const Answer changes = answerQuestion({&index, &history, kNow_ns, std::nullopt}, "what has changed today");
+  ASSERT_EQ(changes.changes.size(), 1U) << changes.sentence;
+  EXPECT_NE(changes.sentence.find("not where it was expected"), std::string::npos) << changes.sentence;
+
+  Event again = missed;
+  again.time_ns += 60'000'000'000;
+  history.append(std::vector{again});
+  EXPECT_EQ(answerQuestion({&index, &history, kNow_ns, std::nullopt}, "what has changed today").changes.size(), 1U) << "no news";
+  Event seen = again;
+  seen.kind = EventKind::kSighted;
+  seen.time_ns += 60'000'000'000;
+  history.append(std::vector{seen});
+  const Answer found = answerQuestion({&index, &history, kNow_ns, std::nullopt}, "where is the blue cup");
+  EXPECT_EQ(found.sentence.find("in vain"), std::string::npos) << found.sentence;
+  EXPECT_FALSE(found.found.at(0).missed_ns);
 }
 
 TEST(Answer, NoTextThrows) {
