@@ -22,6 +22,16 @@ struct Solution {
   Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
 };
 
+/// Somewhere on the way, and how well it explains the scan.
+struct Place {
+  Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
+  double explained = 0.0;
+};
+
+constexpr double kElsewhere_m = 0.1;
+/// Two places are as good as each other unless the prior tells them apart by more squared deviations than these: odds of one to seven.
+constexpr double kEqualDeviationsSq = 4.0;
+
 /// What may be left out: a piece, or a part of it that moves.
 struct Unit {
   int surface = 0;
@@ -106,6 +116,12 @@ class Refiner {
     CameraMotion motion(scene_.scene(), T_map_camera_start, PoseFreedom::kPlanar, prior_.robot_camera);
     h.solution.fit = align(motion, scan_, config_.align);
     h.solution.T_map_camera = motion.T_map_camera();
+    examine(h);
+  }
+
+  /// What the scan says of the surfaces from where the solution stands.
+  void examine(Hypothesis& h) {
+    const CameraMotion motion(scene_.scene(), h.solution.T_map_camera, PoseFreedom::kPlanar, prior_.robot_camera);
     h.checks = checkSurfaces(scene_, motion, scan_, edges_, h.solution.fit.covariance, config_.check, config_.align.threads);
     h.score = 0.0;
     Readings readings{static_cast<int>(scan_.points.size())};
@@ -122,16 +138,47 @@ class Refiner {
   void tryOtherStarts() {
     scene_.show(best_.used);
     const std::vector<char> used = best_.used;
+    std::vector<Place> fits = {placeOf(best_)};
+    std::vector<Place> starts;
     for (const Eigen::Isometry3d& T_map_camera_start : findStarts(scene_, scan_, prior_, config_.align, config_.search)) {
       Hypothesis other;
       other.used = used;
       other.moved.assign(scene_.ids().size(), 0.0);
       evaluate(other, T_map_camera_start);
+      fits.push_back(placeOf(other));
+      Hypothesis unmoved = other;
+      unmoved.solution.T_map_camera = T_map_camera_start;
+      examine(unmoved);
+      starts.push_back(placeOf(unmoved));
       if (other.explained > best_.explained) {
         best_ = std::move(other);
       }
     }
     start_ = best_.solution.T_map_camera;
+    keepRivals(fits, best_.explained - kEqualDeviationsSq * config_.search.prior_share);
+    keepRivals(starts, best_.explained);  // nothing has been fitted there: where the fit belongs, it is better than its start
+  }
+
+  static Place placeOf(const Hypothesis& h) { return {h.solution.T_map_camera, h.explained}; }
+
+  void keepRivals(const std::vector<Place>& places, double least_explained) {
+    for (const Place& place : places) {
+      if (place.explained > least_explained) {
+        rivals_.push_back(place.T_map_camera);
+      }
+    }
+  }
+
+  /// Whether a rival is somewhere else than the answer, as far as the answer was observed.
+  [[nodiscard]] bool hasRival() const {
+    const Solution& solution = best_.solution;
+    return std::any_of(rivals_.begin(), rivals_.end(), [&](const Eigen::Isometry3d& T_map_rival) {
+      CameraPrior rival = prior_;
+      rival.T_map_camera = T_map_rival;
+      const Step back = stepToPrior(rival, solution.T_map_camera);
+      const double deviations = std::sqrt(back.dot(solution.fit.covariance.ldlt().solve(back)));
+      return back.head<2>().norm() > kElsewhere_m && deviations > config_.max_deviations;
+    });
   }
 
   /// Those that contradict most; and the one that most agrees, for it may have pulled the answer to itself.
@@ -240,6 +287,9 @@ class Refiner {
     if (best_.contradictsAnywhere() || moved >= agree || deviations(best_.solution) > config_.max_deviations) {
       return RefinementStatus::kInconsistent;
     }
+    if (hasRival()) {
+      return RefinementStatus::kAmbiguous;
+    }
     const AlignStatus status = best_.solution.fit.status;
     const bool fits = status == AlignStatus::kConverged || status == AlignStatus::kDegenerate || status == AlignStatus::kIterationLimit;
     return fits ? RefinementStatus::kRefined : RefinementStatus::kNotConverged;
@@ -294,6 +344,9 @@ class Refiner {
   const LandmarkConfig& config_;
   std::optional<int> only_;
   Eigen::Isometry3d start_;  ///< of fits without something
+  /// T_map_camera of fits that explain the scan nearly as well as the best one, and of starts that do it better than what they came to: in
+  /// a row of equal fronts whose end is not known, one place is as good as the next, and a fit may slide along to the neighbours.
+  std::vector<Eigen::Isometry3d> rivals_;
   Hypothesis best_;
 };
 

@@ -50,12 +50,14 @@ enum class RefinementStatus {
   kTooFewLandmarks,  ///< too few pieces in view
   kNotConverged,     ///< they are in view, but the scan does not fit them
   kInconsistent,     ///< the pieces do not agree with each other, or not with the prior: some have been moved
+  kAmbiguous,        ///< from elsewhere the scan is explained as well: a row of equal fronts whose end is not known
   kRefined,
 };
 constexpr auto enumTable(RefinementStatus) {
   return std::to_array<base::EnumName<RefinementStatus>>({{RefinementStatus::kTooFewLandmarks, "too few landmarks"},
                                                           {RefinementStatus::kNotConverged, "not converged"},
                                                           {RefinementStatus::kInconsistent, "inconsistent"},
+                                                          {RefinementStatus::kAmbiguous, "ambiguous"},
                                                           {RefinementStatus::kRefined, "refined"}});
 }
 
@@ -99,7 +101,8 @@ struct [[nodiscard]] LandmarkRefinement {
 
 /// One planar correction of the camera from all fixed furniture in view at once (S210-S219, S223). Pieces and parts that contradict what
 /// the others say are left out one after the other; if not enough remain, or as many pieces were left out as remain, the answer is that the
-/// landmarks are inconsistent. `scene`: surfaces are shown and hidden meanwhile. `only`: one landmark on demand, which then suffices.
+/// landmarks are inconsistent. Where a search found an answer nearly as good elsewhere, or a better place that the fit slid away from, it
+/// is ambiguous. `scene`: surfaces are shown and hidden meanwhile. `only`: one landmark on demand, which then suffices.
 [[nodiscard]] LandmarkRefinement refineByLandmarks(LandmarkScene& scene, const Scan& scan, const CameraPrior& prior,
                                                    const LandmarkConfig& config, std::optional<int> only = std::nullopt);
 
