@@ -2,11 +2,12 @@
 // Optimal partitioning (Jackson et al., "An algorithm for optimal partitioning of data on an interval", 2005, doi:10.1109/LSP.2001.838216)
 // of the generalised likelihood ratio: a span costs what its best single value leaves unexplained, and a change has its price. The
 // likelihood of each image is a density over the joint's whole range, so the best value of a span is looked up, not searched. Images from
-// one place repeat each other's errors: n of them count for n / (1 + (n - 1) * repeated).
+// one place repeat each other's errors: n of them count for n / (1 + (n - 1) * repeated). What contradicts a value is no such repetition.
 #include "registration/articulated/joint_fusion.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -103,8 +104,6 @@ class SpanSum {
 
   /// By bin.
   [[nodiscard]] const std::vector<double>& total() const { return total_; }
-  /// Of the best bin, over what images that say nothing would give.
-  [[nodiscard]] double best() const { return *std::max_element(total_.begin(), total_.end()); }
 
  private:
   struct View {
@@ -136,18 +135,36 @@ std::vector<int> viewsOf(const std::vector<JointSighting>& sightings, const Join
   return views;
 }
 
+/// What each image says for and against each bin, over one that says nothing. Images from one place repeat each other's errors in what they
+/// say for a value, wherever the joint is moved between them; one that speaks against it repeats nothing, and counts in full.
+std::vector<std::vector<double>> wordsOf(const std::vector<std::vector<double>>& log_chances, const std::vector<int>& views,
+                                         const JointFusionConfig& config) {
+  std::vector<std::vector<double>> words = log_chances;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto repeats = static_cast<double>(std::count(views.begin(), views.end(), views[i]) - 1);
+    const double weight = 1.0 / (1.0 + repeats * config.repeated);
+    const double uniform = -std::log(static_cast<double>(words[i].size()));
+    for (double& word : words[i]) {
+      const double gain = word - uniform;
+      word = gain > 0.0 ? weight * gain : gain;
+    }
+  }
+  return words;
+}
+
 /// Where spans begin, the first at 0.
 std::vector<std::size_t> bestSplits(const std::vector<std::vector<double>>& log_chances, const std::vector<int>& views,
                                     const JointFusionConfig& config) {
-  const std::size_t count = log_chances.size();
+  const std::vector<std::vector<double>> words = wordsOf(log_chances, views, config);
+  const std::size_t count = words.size();
   std::vector<double> best(count + 1, -std::numeric_limits<double>::infinity());
   std::vector<std::size_t> begin_of_last(count + 1, 0);
   best[0] = config.change_cost;  // the first span follows no change
   for (std::size_t begin = 0; begin < count; ++begin) {
-    SpanSum sum(log_chances[begin].size(), config.repeated);
+    std::vector<double> sum(words[begin].size(), 0.0);
     for (std::size_t end = begin + 1; end <= count; ++end) {
-      sum.add(views[end - 1], log_chances[end - 1]);
-      const double score = best[begin] - config.change_cost + sum.best();
+      std::transform(sum.begin(), sum.end(), words[end - 1].begin(), sum.begin(), std::plus<>());
+      const double score = best[begin] - config.change_cost + *std::max_element(sum.begin(), sum.end());
       if (score > best[end]) {
         best[end] = score;
         begin_of_last[end] = begin;

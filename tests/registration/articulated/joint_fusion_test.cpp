@@ -59,6 +59,31 @@ TEST(JointFusion, NothingSeenNothingSaid) {
   EXPECT_TRUE(fuse({unseen}, {}).empty());
 }
 
+/// A camera that stands still repeats itself, but not what contradicts it: the more often it has seen the door shut, the less it may
+/// overlook that it is open now.
+TEST(JointFusion, FromOnePlaceAChangeIsSeenHoweverManyImagesWentBefore) {
+  for (const int before : {3, 8, 20}) {
+    std::vector<double> values_deg(static_cast<std::size_t>(before), 0.0);
+    values_deg.insert(values_deg.end(), {76.0, 76.0});
+    std::vector<JointSighting> sightings = doorAt(values_deg);
+    for (JointSighting& sighting : sightings) {
+      sighting.T_map_camera.setIdentity();
+    }
+    const std::vector<JointSpan> spans = fuse(sightings, {});
+    ASSERT_EQ(spans.size(), 2U) << before;
+    EXPECT_EQ(spans[1].first, static_cast<std::size_t>(before));
+    EXPECT_NEAR(spans[1].value, 76.0 * kDegree, 1.0 * kDegree);
+  }
+}
+
+TEST(JointFusion, AMisreadingAmongImagesFromOnePlaceIsNoChange) {
+  std::vector<JointSighting> sightings = doorAt({0.0, 0.0, 0.0, 76.0, 0.0, 0.0, 0.0, 0.0});
+  for (JointSighting& sighting : sightings) {
+    sighting.T_map_camera.setIdentity();
+  }
+  ASSERT_EQ(fuse(sightings, {}).size(), 1U);
+}
+
 TEST(JointFusion, OneImageIsItself) {
   const std::vector<JointSpan> spans = fuse({sightingOf(33.0, 0)}, {});
   ASSERT_EQ(spans.size(), 1U);
