@@ -229,18 +229,59 @@ double leastOf(const AngleFit& fit) {
   return *std::min_element(fit.unexplained.begin(), fit.unexplained.end());
 }
 
+int bestAngle(const AngleFit& fit) {
+  return static_cast<int>(std::min_element(fit.unexplained.begin(), fit.unexplained.end()) - fit.unexplained.begin());
+}
+
+/// What the large templates are held against.
+struct FineSearch {
+  const FitStart& start;
+  const cv::Mat& mixture;
+  const AngleRing& ring;
+};
+
 /// A place and what it costs with the angle that is best there.
 struct Candidate {
   AngleFit fit;
+  double outside = 0.0;  ///< as a Place's
   double cost = 0.0;
 };
+
+/// From a place and an angle to the best place for that angle, a pixel away at most, and to all angles there.
+Candidate refine(const FineSearch& search, const Eigen::Vector2d& centre_patch, int angle, double outside) {
+  constexpr int kReach_px = 1;
+  const ShiftedWindows windows(search.start, search.mixture, search.ring, {centre_patch, kReach_px});
+  const Refined refined = refinePlace(windows, search.ring, angle, kReach_px);
+  const double px_per_m = search.ring.shape().radius_px / search.start.radius_m;
+  Candidate candidate{fitThere(search.start, search.ring, centre_patch + refined.shift_px.cast<double>() / px_per_m), outside, 0.0};
+  const double residual = std::sqrt(leastOf(candidate.fit) * (refined.residual + kFineOutside * outside));
+  candidate.cost = costOf(residual, search.start, candidate.fit.centre_patch);
+  return candidate;
+}
+
+bool isCheaper(const Candidate& one, const Candidate& other) {
+  return one.cost < other.cost;
+}
+
+/// The angle that is best at a place is often not the one that the place was found with: from there once more, for the few that may be
+/// the best.
+void refineAgain(const FineSearch& search, std::vector<Candidate>& candidates) {
+  constexpr std::size_t kAgain = 3;
+  std::stable_sort(candidates.begin(), candidates.end(), isCheaper);
+  for (std::size_t i = 0; i < std::min(kAgain, candidates.size()); ++i) {
+    Candidate again = refine(search, candidates[i].fit.centre_patch, bestAngle(candidates[i].fit), candidates[i].outside);
+    if (isCheaper(again, candidates[i])) {
+      candidates[i] = std::move(again);
+    }
+  }
+}
 
 /// Half a pixel aside of the best place.
 std::vector<Candidate> besides(const FitStart& start, const AngleRing& ring, const Candidate& best) {
   std::vector<Candidate> found;
   const double step_m = 0.5 * start.radius_m / ring.shape().radius_px;
   for (const Eigen::Vector2d& side : {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1)}) {
-    Candidate candidate{fitThere(start, ring, best.fit.centre_patch + step_m * side), 0.0};
+    Candidate candidate{fitThere(start, ring, best.fit.centre_patch + step_m * side), best.outside, 0.0};
     candidate.cost = best.cost + 0.5 * kEvidence * std::log(leastOf(candidate.fit) / leastOf(best.fit));
     found.push_back(std::move(candidate));
   }
@@ -249,8 +290,7 @@ std::vector<Candidate> besides(const FitStart& start, const AngleRing& ring, con
 
 /// The best place; of each angle what the place that suits it best leaves unexplained, made worse by what that place costs more.
 AngleFit merge(const std::vector<Candidate>& candidates) {
-  const auto best =
-      std::min_element(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  const auto best = std::min_element(candidates.begin(), candidates.end(), isCheaper);
   AngleFit merged = best->fit;
   for (const Candidate& candidate : candidates) {
     const double dearer = std::exp((candidate.cost - best->cost) / (0.5 * kEvidence)) * leastOf(best->fit) / leastOf(candidate.fit);
@@ -266,24 +306,17 @@ AngleFit merge(const std::vector<Candidate>& candidates) {
 AngleFit fitAngle(const FitStart& start, const RingPair& rings) {
   const cv::Mat mixture = strongestMixture(start);
   const double coarse_px_per_m = rings.coarse.shape().radius_px / start.radius_m;
-  const double fine_px_per_m = rings.fine.shape().radius_px / start.radius_m;
   const int reach_px = static_cast<int>(std::ceil(start.reach_m * coarse_px_per_m));
   const ShiftedWindows coarse(start, mixture, rings.coarse, {start.centre_patch, reach_px});
+  const FineSearch search{start, mixture, rings.fine};
   std::vector<Candidate> candidates;
-  std::size_t best = 0;
   for (const Place& place : findPlaces(start, coarse, rings.coarse, reach_px)) {
-    constexpr int kFineReach_px = 1;
     const Eigen::Vector2d centre_patch = start.centre_patch + place.shift_px.cast<double>() / coarse_px_per_m;
     const int angle = static_cast<int>(place.angle) * rings.fine.shape().angles / rings.coarse.shape().angles;
-    const ShiftedWindows fine(start, mixture, rings.fine, {centre_patch, kFineReach_px});
-    const Refined refined = refinePlace(fine, rings.fine, angle, kFineReach_px);
-    Candidate candidate{fitThere(start, rings.fine, centre_patch + refined.shift_px.cast<double>() / fine_px_per_m), 0.0};
-    const double residual = std::sqrt(leastOf(candidate.fit) * (refined.residual + kFineOutside * place.outside));
-    candidate.cost = costOf(residual, start, candidate.fit.centre_patch);
-    candidates.push_back(std::move(candidate));
-    best = candidates.back().cost < candidates[best].cost ? candidates.size() - 1 : best;
+    candidates.push_back(refine(search, centre_patch, angle, place.outside));
   }
-  std::vector<Candidate> aside = besides(start, rings.fine, candidates[best]);
+  refineAgain(search, candidates);
+  std::vector<Candidate> aside = besides(start, rings.fine, *std::min_element(candidates.begin(), candidates.end(), isCheaper));
   std::move(aside.begin(), aside.end(), std::back_inserter(candidates));
   return merge(candidates);
 }

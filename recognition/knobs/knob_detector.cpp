@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
@@ -97,6 +98,12 @@ std::vector<KnobDetection> detectKnobs(const FaceImage& image, const DetectorMod
     detectInLayer(image, image.radius_m * scale, model, config, found);
   }
   return bestApart(std::move(found), 0.8 * image.radius_m);
+}
+
+double scoreWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch, const DetectorModel& model) {
+  const std::vector<float> descriptor = describeWindow(image, centre_patch);
+  OIKOS_CHECK(descriptor.size() == model.weights.size());
+  return std::inner_product(descriptor.begin(), descriptor.end(), model.weights.begin(), model.bias);
 }
 
 std::vector<float> describeWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch) {

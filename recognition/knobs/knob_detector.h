@@ -65,6 +65,9 @@ struct FaceImage {
 /// The best first; none nearer than 0.8 radii to a better one. Windows that reach out of the picture are not looked at.
 [[nodiscard]] std::vector<KnobDetection> detectKnobs(const FaceImage& image, const DetectorModel& model, const DetectorConfig& config);
 
+/// Of the window around a point of the patch's plane, for a knob of the expected size; also where the window reaches out of the picture.
+[[nodiscard]] double scoreWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch, const DetectorModel& model);
+
 /// The descriptor of the window around a point of the patch's plane, for a knob of `radius_m`; what training gathers.
 [[nodiscard]] std::vector<float> describeWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch);
 

@@ -95,14 +95,24 @@ void KnobReader::readAngle(const AngleFit& fit, const FaceView& view, KnobReadin
   }
 }
 
-std::vector<KnobReader::Found> KnobReader::find(const KnobPicture& picture, const FaceView& view) {
-  std::vector<KnobDetection> proposals = detectKnobs({picture.color, picture.camera, view, face_.radius_m}, detector_, config_.detector);
+/// What the detector sees, and the place where the knob is believed: of one that hardly stands out from its carrier it sees nothing, or
+/// something else, while the mark can be read well.
+std::vector<KnobDetection> KnobReader::propose(const FaceImage& image) const {
+  std::vector<KnobDetection> proposals = detectKnobs(image, detector_, config_.detector);
   proposals.resize(std::min(proposals.size(), static_cast<std::size_t>(config_.max_proposals)));
-  if (proposals.empty()) {  // then only a very good fit counts
-    proposals.push_back({Eigen::Vector2d::Zero(), face_.radius_m, config_.detector.min_score});
+  constexpr double kThere = 0.5;  // in radii: a proposal so near to the believed place stands for it
+  const Eigen::Vector2d believed_patch = Eigen::Vector2d::Zero();
+  if (std::none_of(proposals.begin(), proposals.end(),
+                   [&](const KnobDetection& one) { return (one.centre_patch - believed_patch).norm() < kThere * image.radius_m; })) {
+    const double score = std::max(config_.detector.min_score, scoreWindow(image, believed_patch, detector_));
+    proposals.push_back({believed_patch, image.radius_m, score});
   }
+  return proposals;
+}
+
+std::vector<KnobReader::Found> KnobReader::find(const KnobPicture& picture, const FaceView& view) {
   std::vector<Found> found;
-  for (const KnobDetection& proposal : proposals) {
+  for (const KnobDetection& proposal : propose({picture.color, picture.camera, view, face_.radius_m})) {
     Found one;
     one.detection = proposal;
     one.fit = fitAngle({picture.color, picture.camera, view, face_.radius_m, proposal.centre_patch, kFitReach * face_.radius_m,

@@ -19,11 +19,11 @@ struct KnobReaderConfig {
   double max_tilt_deg = 60.0;           ///< steeper views are not read (S363)
   double min_diameter_px = 16.0;        ///< nor smaller knobs
   double registration_sigma_m = 0.005;  ///< how far a knob is from where it is believed, each way
-  int max_proposals = 3;                ///< of the detector, the best, that are compared with the knob's own render
-  double min_score = -0.5;              ///< of detector and fit together: less is no knob
+  int max_proposals = 3;                ///< of the detector, the best, compared with the knob's own render as the believed place is
+  double min_score = -1.5;              ///< of detector and fit together: less is no knob
   double max_unexplained = 0.75;        ///< of the picture's variation by the best template: more is no such knob
-  double evidence_share = 0.05;         ///< independent pixels / pixels of the knob
-  double max_evidence = 60.0;           ///< light, colours and shape are modelled no better than that, however large the picture
+  double evidence_share = 0.1;          ///< independent pixels / pixels of the knob
+  double max_evidence = 45.0;           ///< light, colours and shape are modelled no better than that, however large the picture
   double detent_sigma_deg = 3.0;        ///< how far a knob rests from the angle of its state
   double between_share = 0.02;          ///< prior probability that it is in none
   double min_state_probability = 0.9;   ///< of a state that is told
@@ -104,6 +104,7 @@ class KnobReader {
 
  private:
   const RingPair& ringsOf(double tilt_rad);
+  [[nodiscard]] std::vector<KnobDetection> propose(const FaceImage& image) const;
   void readAngle(const AngleFit& fit, const FaceView& view, KnobReading& reading) const;
 
   KnobDescription knob_;

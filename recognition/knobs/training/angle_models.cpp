@@ -98,7 +98,7 @@ AngleModels& AngleModels::operator=(AngleModels&&) noexcept = default;
 
 std::vector<std::string> AngleTrainingConfig::validate() const {
   return base::ConfigRules()
-      .between("renders", renders, 10, 36000)
+      .between("renders", renders, 10, 180000)
       .between("trees", trees, 1, 1000)
       .between("classes", classes, 4, 360)
       .greater("svr_cost", svr_cost, 0.0)

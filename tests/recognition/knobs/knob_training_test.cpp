@@ -35,14 +35,7 @@ TEST(KnobTraining, TellsKnobsFromTheRest) {
   for (int i = 0; i < kScenes; ++i) {
     const DetectionScene scene = drawDetectionScene(trainingLook(), 1, random);
     const FaceImage image{scene.color, scene.camera, scene.view, scene.radius_m};
-    const auto score = [&](const Eigen::Vector2d& centre_patch) {
-      const std::vector<float> descriptor = describeWindow(image, centre_patch);
-      double sum = trained.model.bias;
-      for (std::size_t k = 0; k < descriptor.size(); ++k) {
-        sum += descriptor[k] * trained.model.weights[k];
-      }
-      return sum;
-    };
+    const auto score = [&](const Eigen::Vector2d& centre_patch) { return scoreWindow(image, centre_patch, trained.model); };
     right += score(scene.centres_patch[0]) > score(scene.centres_patch[0] + 1.5 * scene.radius_m * Eigen::Vector2d(1.0, 0.0)) ? 1 : 0;
   }
   EXPECT_GE(right, 17);  // by chance 10
@@ -92,7 +85,7 @@ TEST(DetectorTrainingConfig, RefusesWhatMakesNoSense) {
 }
 
 TEST(AngleTrainingConfig, RefusesWhatMakesNoSense) {
-  test::checkConfigRules<AngleTrainingConfig>({{"renders", "40000", "must be from 10 to 36000"},
+  test::checkConfigRules<AngleTrainingConfig>({{"renders", "200000", "must be from 10 to 180000"},
                                                {"trees", "0", "must be from 1 to 1000"},
                                                {"classes", "3", "must be from 4 to 360"},
                                                {"svr_cost", "0", "must be > 0"},
