@@ -29,10 +29,12 @@ ExitCode trainKnobs(const std::filesystem::path& out, const Session& session) {
   recognition::TrainingRun run;
   run.seed = static_cast<std::uint64_t>(session.options.seed);
   run.threads = session.options.threads;
+  base::AtomicFile file(out);  // a place that cannot be written to is refused before minutes of training
   TerminalProgress progress(session.options);
   run.progress = progress.sink();
   const recognition::TrainedDetector trained = recognition::trainDetector(recognition::trainingLook(), config, run);
-  base::writeFileAtomically(out, recognition::writeDetector(trained.model));
+  file.stream() << recognition::writeDetector(trained.model);
+  file.commit();
   if (session.options.json) {
     std::cout << nlohmann::ordered_json{{"written", out.string()},    {"panels", config.panels},
                                         {"knobs", trained.positives}, {"others", trained.negatives},
