@@ -3,12 +3,14 @@
 // believed of them is off as a registration and a tape measure are.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <optional>
 #include <string>
 
+#include "bench/knobs/rate.h"
 #include "bench/knobs/trials.h"
 #include "core/base/degrees.h"
 #include "core/base/read_file.h"
@@ -29,24 +31,6 @@ struct Options {
   bool has_training_look = false;
 };
 
-/// Wilson's interval at 95 %.
-std::pair<double, double> interval(int successes, int n) {
-  const double z = 1.96;
-  const double p = static_cast<double>(successes) / n;
-  const double middle = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
-  const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
-  return {middle - half, middle + half};
-}
-
-std::string rate(long successes, long n) {
-  char text[100];
-  const auto [low, high] = interval(static_cast<int>(successes), std::max(1, static_cast<int>(n)));
-  std::snprintf(text, sizeof text, "%.2f %% (%ld of %ld; %.2f to %.2f)",
-                100.0 * static_cast<double>(successes) / static_cast<double>(std::max(1L, n)), successes, n, 100.0 * std::max(0.0, low),
-                100.0 * high);
-  return text;
-}
-
 // ---- Detection
 
 void reportAlarms(const char* name, const std::vector<bench::DetectionTrial>& trials,
@@ -66,8 +50,8 @@ void reportAlarms(const char* name, const std::vector<bench::DetectionTrial>& tr
   // Byar's approximation of the upper end of a Poisson count's 95 % interval.
   const double c = static_cast<double>(alarms) + 1.0;
   const double high = c * std::pow(1.0 - 1.0 / (9.0 * c) + 1.96 / (3.0 * std::sqrt(c)), 3.0) / n;
-  std::printf("%-22s at %5.2f: found %s; %ld false alarms, %.3f an image (to %.3f)\n", name, threshold, rate(found, knobs).c_str(), alarms,
-              per_image, high);
+  std::printf("%-22s at %5.2f: found %s; %ld false alarms, %.3f an image (to %.3f)\n", name, threshold,
+              bench::rateText(found, knobs).c_str(), alarms, per_image, high);
 }
 
 void reportDetection(const std::vector<bench::DetectionTrial>& trials, const DetectorModel& detector) {
@@ -75,7 +59,7 @@ void reportDetection(const std::vector<bench::DetectionTrial>& trials, const Det
     reportAlarms("detector alone", trials, &bench::DetectionTrial::alone, threshold);
   }
   const double own = KnobReaderConfig().min_score;
-  for (const double threshold : {own, own + 0.5, own + 1.0, own + 1.5}) {
+  for (const double threshold : {own, own + 0.5, own + 1.0, own + 2.0}) {
     reportAlarms("with the knob's render", trials, &bench::DetectionTrial::confirmed, threshold);
   }
   double ms = 0.0;
@@ -114,8 +98,42 @@ void reportReadings(const std::string& name, const std::vector<const bench::Read
   const auto n = static_cast<long>(trials.size());
   std::printf("%-14s error mean %.2f median %.2f p95 %.2f deg; right %s; told %.1f %%, of them right %s; nees median %.2f\n", name.c_str(),
               sum / static_cast<double>(std::max<std::size_t>(1, errors.size())), quantile(errors, 0.5), quantile(errors, 0.95),
-              rate(right, n).c_str(), 100.0 * static_cast<double>(told) / static_cast<double>(std::max(1L, n)),
-              rate(told_right, told).c_str(), quantile(normalised, 0.5));
+              bench::rateText(right, n).c_str(), 100.0 * static_cast<double>(told) / static_cast<double>(std::max(1L, n)),
+              bench::rateText(told_right, told).c_str(), quantile(normalised, 0.5));
+}
+
+/// How often a state is right that has such a probability, and how far angles are off in units of their deviations.
+void reportHonesty(const std::vector<bench::ReadingTrial>& trials) {
+  constexpr std::array<double, 8> kFrom = {0.0, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99, 0.999};
+  for (std::size_t i = 0; i < kFrom.size(); ++i) {
+    const double to = i + 1 < kFrom.size() ? kFrom[i + 1] : 1.1;
+    long right = 0;
+    std::vector<double> stated;
+    for (const bench::ReadingTrial& trial : trials) {
+      if (trial.reading.state && trial.reading.probability >= kFrom[i] && trial.reading.probability < to) {
+        stated.push_back(trial.reading.probability);
+        right += trial.is_right ? 1 : 0;
+      }
+    }
+    std::printf("probability from %.3f, mean %s: right %s\n", kFrom[i], bench::meanText(stated).c_str(),
+                bench::rateText(right, static_cast<long>(stated.size())).c_str());
+  }
+  std::array<long, 3> within{};
+  std::vector<double> squares;
+  for (const bench::ReadingTrial& trial : trials) {
+    if (trial.reading.state) {
+      const double off = trial.error_deg * base::kRadPerDeg / trial.reading.sigma_rad;
+      squares.push_back(off * off);
+      for (std::size_t i = 0; i < within.size(); ++i) {
+        within[i] += off < static_cast<double>(i + 1) ? 1 : 0;
+      }
+    }
+  }
+  std::printf("squared error in deviations: mean %s", bench::meanText(squares).c_str());
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    std::printf("; within %zu: %s", i + 1, bench::rateText(within[i], static_cast<long>(squares.size())).c_str());
+  }
+  std::printf("\n");
 }
 
 void reportLearnt(const std::vector<bench::ReadingTrial>& trials) {
@@ -127,7 +145,7 @@ void reportLearnt(const std::vector<bench::ReadingTrial>& trials) {
       right += trial.learnt_is_right.at(method) ? 1 : 0;
     }
     std::printf("%-14s error mean %.2f deg; right %s\n", std::string(name).c_str(), sum / static_cast<double>(trials.size()),
-                rate(right, static_cast<long>(trials.size())).c_str());
+                bench::rateText(right, static_cast<long>(trials.size())).c_str());
   }
 }
 
@@ -145,6 +163,7 @@ void reportReading(const std::vector<bench::ReadingTrial>& trials) {
   for (const auto& [name, of] : groups) {
     reportReadings(name, of);
   }
+  reportHonesty(trials);
   if (!trials.empty() && !trials.front().learnt_error_deg.empty()) {
     reportLearnt(trials);
   }

@@ -92,12 +92,14 @@ DetectionTrial runTrial(int number, const TrialSetup& setup) {
   std::vector<Candidate> alone;
   std::vector<Candidate> confirmed;
   for (const FaceView& view : picture.regions) {
-    (void)reader.find(taken, view);  // renders the templates
-    const double begin_ms = processorTime_ms();
-    const std::vector<KnobReader::Found> found = reader.find(taken, view);
-    trial.ms += processorTime_ms() - begin_ms;
-    for (const KnobReader::Found& one : found) {
-      confirmed.push_back({projectPatch(view, taken.camera, one.fit.centre_patch), one.detection.score, one.score});
+    if (setup.has_confirmation) {
+      (void)reader.find(taken, view);  // renders the templates
+      const double begin_ms = processorTime_ms();
+      const std::vector<KnobReader::Found> found = reader.find(taken, view);
+      trial.ms += processorTime_ms() - begin_ms;
+      for (const KnobReader::Found& one : found) {
+        confirmed.push_back({projectPatch(view, taken.camera, one.fit.centre_patch), one.detection.score, one.score});
+      }
     }
     for (const KnobDetection& one : detectKnobs({taken.color, taken.camera, view, reader.face().radius_m}, setup.detector, {})) {
       alone.push_back({projectPatch(view, taken.camera, one.centre_patch), one.score, one.score});

@@ -15,7 +15,6 @@ namespace {
 
 using namespace recognition;
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr int kVariants = 6;
 
 double errorOf(double angle_rad, double true_rad) {
   return std::abs(std::remainder(angle_rad - true_rad, kTurn)) / base::kRadPerDeg;
@@ -71,8 +70,8 @@ void readLearnt(const KnobReader& reader, const KnobPicture& picture, const Sett
 std::vector<ReadingTrial> runKnob(int number, int count, const TrialSetup& setup) {
   Random knob_random(setup.seed + 1000, static_cast<std::uint64_t>(number));
   PanelLook look = setup.look;
-  const std::size_t family = static_cast<std::size_t>(number) % testKnobs().size();
-  look.knobs = {testKnobs()[family].maker};
+  const std::size_t family = static_cast<std::size_t>(number) % setup.knobs.size();
+  look.knobs = {setup.knobs[family].maker};
   DrawnKnob knob = drawKnobs(look, 1, knob_random).front();
   KnobReader reader(believe(knob, knob_random.between(0.0, kTurn), knob_random), {}, setup.detector);
   std::vector<ReadingTrial> trials;
@@ -107,7 +106,7 @@ std::vector<ReadingTrial> runKnob(int number, int count, const TrialSetup& setup
 }  // namespace
 
 std::vector<ReadingTrial> runReading(int count, const TrialSetup& setup) {
-  const int knobs = static_cast<int>(testKnobs().size()) * kVariants;
+  const int knobs = static_cast<int>(setup.knobs.size()) * setup.variants;
   std::vector<std::vector<ReadingTrial>> slots(static_cast<std::size_t>(knobs));
   base::parallelFor(knobs, setup.threads, [&](int i) {
     const int extra = i < count % knobs ? 1 : 0;

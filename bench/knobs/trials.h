@@ -17,6 +17,9 @@ constexpr int kStates = 9;
 struct TrialSetup {
   recognition::PanelLook look;
   recognition::DetectorModel detector;
+  std::vector<NamedKnob> knobs = testKnobs();              ///< whose pictures are read
+  int variants = 6;                                        ///< of each of them
+  bool has_confirmation = true;                            ///< of detections by the knob's own render
   const recognition::AngleModels* angle_models = nullptr;  ///< null: the learnt angles are left out
   std::uint64_t seed = 1;
   int threads = 2;
@@ -34,14 +37,14 @@ struct DetectionTrial {
   int regions = 0;               ///< that were searched
   double ms = 0.0;               ///< of processor time, for all regions
   std::vector<Alarm> alone;      ///< by the detector alone, apart from each other
-  std::vector<Alarm> confirmed;  ///< confirmed by the knob's own render
+  std::vector<Alarm> confirmed;  ///< confirmed by the knob's own render; empty without confirmation
 };
 
 /// Pictures with none, one, or two to five knobs, as many of each.
 [[nodiscard]] std::vector<DetectionTrial> runDetection(int images, const TrialSetup& setup);
 
 struct ReadingTrial {
-  std::size_t family = 0;
+  std::size_t family = 0;  ///< index into TrialSetup::knobs
   double tilt_deg = 0.0;
   double diameter_px = 0.0;
   recognition::KnobReading reading;
@@ -52,7 +55,7 @@ struct ReadingTrial {
   std::map<recognition::AngleMethod, bool> learnt_is_right;
 };
 
-/// Pictures of one knob; six knobs of each test family, `count` pictures in all.
+/// Pictures of one knob, `count` in all, evenly of the variants of each family.
 [[nodiscard]] std::vector<ReadingTrial> runReading(int count, const TrialSetup& setup);
 
 /// Of this thread.
