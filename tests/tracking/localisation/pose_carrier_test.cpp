@@ -43,7 +43,7 @@ TEST(PoseCarrier, FollowsTheCameraByItsPictures) {
     for (int i = 1; i < drive.frameCount(); ++i) {
       const auto carried = carrier.carry(drive.read(i, recording::Channels::kGray));
       ASSERT_TRUE(carried) << i;
-      const Eigen::Isometry3d& T_map_camera = drive.truth()[static_cast<std::size_t>(i)].T_map_camera;
+      const Eigen::Isometry3d T_map_camera = drive.truth()[static_cast<std::size_t>(i)].T_map_camera;
       EXPECT_LT(errorOf(*carried, T_map_camera).head<3>().norm(), 0.03) << i;
       EXPECT_LT(errorOf(*carried, T_map_camera).tail<3>().norm(), 0.02) << i;
       EXPECT_LT(normalised(*carried, T_map_camera), kChiSquared) << i;
