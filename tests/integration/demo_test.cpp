@@ -19,10 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// From the dock a little into the hall and about, small pictures.
-constexpr const char* kScene = R"(start = "2026-03-02T08:00:00Z"
-rate_hz = 6
-sensor = "kinect1"
+constexpr const char* kSmallPictures = R"(
 [camera]
 width = 320
 height = 240
@@ -30,6 +27,12 @@ fx = 262.5
 fy = 262.5
 cx = 159.5
 cy = 119.5
+)";
+
+/// From the dock a little into the hall and about.
+constexpr const char* kScene = R"(start = "2026-03-02T08:00:00Z"
+rate_hz = 6
+sensor = "kinect1"
 [path]
 waypoints = ["1.1 0.1", "1.1 0.1 yaw 120", "1.1 0.1 yaw -120", "0 0 yaw 0"]
 speed_mps = 0.8
@@ -43,13 +46,6 @@ constexpr const char* kThen = R"(start = "2026-03-02T09:00:00Z"
 rate_hz = 6
 sensor = "kinect1"
 changes = ["kitchen-door-door-joint 60 deg"]
-[camera]
-width = 320
-height = 240
-fx = 262.5
-fy = 262.5
-cx = 159.5
-cy = 119.5
 [path]
 start = [0.4, 0.0, 10.0]
 waypoints = ["0.6 0.0 yaw 60"]
@@ -61,8 +57,8 @@ class Demo : public testing::Test {
   Demo() {
     fs::create_directories(home() / "scenes");
     fs::copy_file(fs::path(OIKOS_SOURCE_DIR) / "homes/demo/home.xml", home() / "home.xml");
-    (void)folder_.write("home/scenes/short.toml", kScene);
-    (void)folder_.write("home/scenes/then.toml", kThen);
+    (void)folder_.write("home/scenes/short.toml", std::string(kScene) + kSmallPictures);
+    (void)folder_.write("home/scenes/then.toml", std::string(kThen) + kSmallPictures);
   }
   [[nodiscard]] fs::path home() const { return folder_.path() / "home"; }
   [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
