@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A real camera put right by real furniture: frames 0-299 of `kitchen` are mapped, homes/kitchen-real stands in that map, and each fifth of
 // frames 300-599 is disturbed by 5 to 20 cm and 2 to 10 degrees and refined by the furniture alone; once more with each piece left out.
-//   real_kitchen_bench [--pictures FOLDER] [--maps FOLDER] [--verbose] [--set KEY=VALUE]…
+//   real_kitchen_bench [--pictures FOLDER [--on-white]] [--maps FOLDER] [--verbose] [--set KEY=VALUE]…
 // Errors are against groundtruth_sfm.txt, moved into the map by the mapped frames, and against the map's own path of all 600 frames.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -44,7 +44,8 @@ constexpr int kStride = 5;
 
 struct Options {
   fs::path pictures;
-  fs::path maps;  ///< empty: mapped into a temporary folder
+  fs::path maps;             ///< empty: mapped into a temporary folder
+  bool is_on_white = false;  ///< the pictures: nothing of the recording in them
   bool is_verbose = false;
   std::vector<std::string> settings;
   bool leaves_out = true;
@@ -107,13 +108,12 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-/// Outlines of the believed furniture over the picture.
-void drawOverlay(const registration::LandmarkScene& landmarks, const camera::PinholeCamera& camera, const cv::Mat& color,
-                 const Eigen::Isometry3d& T_map_camera, const cv::Scalar& stroke, cv::Mat& picture) {
+/// Outlines of the believed furniture, drawn into the picture.
+void drawOutlines(const registration::LandmarkScene& landmarks, const camera::PinholeCamera& camera, const Eigen::Isometry3d& T_map_camera,
+                  const cv::Scalar& stroke, cv::Mat& picture) {
   render::ViewConfig config;
   config.with_parts = true;
   const render::View view = render::renderView(landmarks.scene(), render::CameraRays(camera), {T_map_camera, {}}, config);
-  picture = picture.empty() ? color.clone() : picture;
   for (int v = 0; v + 1 < picture.rows; ++v) {
     for (int u = 0; u + 1 < picture.cols; ++u) {
       const int part = view.part.at<int>(v, u);
@@ -122,6 +122,21 @@ void drawOverlay(const registration::LandmarkScene& landmarks, const camera::Pin
       }
     }
   }
+}
+
+/// The furniture where the camera truly was (grey), beside each other before (orange) and after (green); over the frame, or on white.
+cv::Mat drawOverlay(registration::LandmarkScene& landmarks, const camera::PinholeCamera& camera, const Asked& a,
+                    const Eigen::Isometry3d& T_map_camera, bool is_on_white) {
+  landmarks.show(std::vector<char>(landmarks.surfaces().size(), 1));
+  const cv::Mat paper = is_on_white ? cv::Mat(a.images.color.size(), CV_8UC3, cv::Scalar::all(255)) : a.images.color;
+  cv::Mat before = paper.clone();
+  drawOutlines(landmarks, camera, a.T_map_camera_true, cv::Scalar::all(170), before);
+  cv::Mat after = before.clone();
+  drawOutlines(landmarks, camera, a.T_map_camera_disturbed, cv::Scalar(0, 120, 255), before);
+  drawOutlines(landmarks, camera, T_map_camera, cv::Scalar(0, 150, 0), after);
+  cv::Mat both;
+  cv::hconcat(before, after, both);
+  return both;
 }
 
 /// A line a frame: how far off along the longer row of cupboards and across it, and what each piece was taken for.
@@ -152,13 +167,13 @@ void printFrame(const Asked& a, const registration::LandmarkRefinement& refined)
 }
 
 Row refineAll(registration::LandmarkScene& landmarks, const std::vector<Asked>& asked, const registration::LandmarkConfig& config,
-              const camera::PinholeCamera& camera, const fs::path& pictures, bool is_verbose) {
+              const camera::PinholeCamera& camera, const Options& options) {
   Row row;
   for (const Asked& a : asked) {
     const registration::CameraPrior prior{a.T_map_camera_disturbed, Eigen::Vector3d::Zero(), 0.12, 6.0 * kDegree};
     const registration::LandmarkRefinement refined = registration::refineByLandmarks(landmarks, a.scan, prior, config);
     ++row.statuses[std::string(base::toString(refined.status))];
-    if (is_verbose) {
+    if (options.is_verbose) {
       printFrame(a, refined);
     }
     row.before_m.push_back((a.T_map_camera_disturbed.translation() - a.T_map_camera_true.translation()).norm());
@@ -170,13 +185,10 @@ Row refineAll(registration::LandmarkScene& landmarks, const std::vector<Asked>& 
       row.to_map_m.push_back((refined.T_map_camera.translation() - a.T_map_camera_mapped.translation()).norm());
       row.to_map_deg.push_back(degreesBetween(refined.T_map_camera, a.T_map_camera_mapped));
     }
-    if (!pictures.empty()) {
-      fs::create_directories(pictures);
-      landmarks.show(std::vector<char>(landmarks.surfaces().size(), 1));
-      cv::Mat picture;
-      drawOverlay(landmarks, camera, a.images.color, a.T_map_camera_disturbed, cv::Scalar(0, 160, 255), picture);
-      drawOverlay(landmarks, camera, a.images.color, refined.T_map_camera, cv::Scalar(0, 255, 0), picture);
-      cv::imwrite((pictures / (std::to_string(a.frame) + ".png")).string(), picture);
+    if (!options.pictures.empty()) {
+      fs::create_directories(options.pictures);
+      cv::imwrite((options.pictures / (std::to_string(a.frame) + ".png")).string(),
+                  drawOverlay(landmarks, camera, a, refined.T_map_camera, options.is_on_white));
     }
   }
   return row;
@@ -235,10 +247,12 @@ void run(const Options& options, const fs::path& data) {
       "| left out | refined | before: mean cm, deg | after: mean cm, deg | 95 %% cm, deg | to the map's own path: mean cm, deg | "
       "|\n|---|---|---|---|---|---|---|\n");
   registration::LandmarkScene all = tracking::makeLandmarks(home, folder, config.furniture);
-  print("nothing", refineAll(all, asked, config.landmarks, recording->camera(), options.pictures, options.is_verbose));
+  print("nothing", refineAll(all, asked, config.landmarks, recording->camera(), options));
+  Options without_pictures = options;
+  without_pictures.pictures.clear();
   for (const std::string& id : options.leaves_out ? all.ids() : std::vector<std::string>()) {
     registration::LandmarkScene fewer = landmarksWithout(home, folder, config.furniture, id);
-    print("`" + id + "`", refineAll(fewer, asked, config.landmarks, recording->camera(), {}, options.is_verbose));
+    print("`" + id + "`", refineAll(fewer, asked, config.landmarks, recording->camera(), without_pictures));
   }
 }
 
@@ -248,6 +262,7 @@ int main(int argc, char** argv) {
   CLI::App app{"A real camera refined by the furniture of homes/kitchen-real"};
   Options options;
   app.add_option("--pictures", options.pictures, "folder for the furniture's outlines over each frame, before and after");
+  app.add_flag("--on-white", options.is_on_white, "outlines alone, nothing of the recording");
   app.add_option("--maps", options.maps, "keep the maps there, and take them from there");
   app.add_flag("--verbose", options.is_verbose, "a line a frame");
   app.add_option("--set", options.settings, "KEY=VALUE of the landmarks' configuration; may be repeated")->allow_extra_args(false);
