@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// align() beside PCL's IterativeClosestPointWithNormals and beside distance fields of the model's parts on the same depth images, in
-// turns, on one thread: the same scan points, the same start, normals counted everywhere. Fields are made before; their cost stands apart.
-#include <pcl/features/normal_3d.h>
-#include <pcl/point_types.h>
-#include <pcl/registration/icp.h>
-
+// align() beside the point-to-plane ICP of PCL and of Open3D and beside distance fields of the model's parts on the same depth images, in
+// turns: the same scan points, the same start, normals counted everywhere, processor time of all threads. Fields are made before; their
+// cost stands apart.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -18,6 +15,7 @@
 #include <random>
 
 #include "bench/registration/field_align.h"
+#include "bench/registration/icp_peers.h"
 #include "core/metrics/share_interval.h"
 #include "registration/align.h"
 #include "tests/registration/furniture_scan.h"
@@ -25,7 +23,6 @@
 namespace {
 
 using namespace oikos;
-using PclCloud = pcl::PointCloud<pcl::PointNormal>;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 double cpuMs(const std::function<void()>& action) {
@@ -157,66 +154,45 @@ void runFields(const Case& made, const bench::FieldModel& fields, const registra
   outcomes.judged.push_back(outcome);
 }
 
-void estimateNormals(const PclCloud::Ptr& cloud) {
-  pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> estimation;
-  estimation.setInputCloud(cloud);
-  estimation.setKSearch(20);
-  estimation.setViewPoint(0.0F, 0.0F, 0.0F);
-  PclCloud normals;
-  estimation.compute(normals);
-  for (std::size_t i = 0; i < cloud->size(); ++i) {
-    (*cloud)[i].normal_x = normals[i].normal_x;
-    (*cloud)[i].normal_y = normals[i].normal_y;
-    (*cloud)[i].normal_z = normals[i].normal_z;
+/// The scan's points where the model is seen, what align() pairs, too, and the rendered model (S213-S215).
+bench::IcpClouds icpClouds(const Case& made, const render::Scene& scene, int step_px) {
+  const camera::PinholeCamera camera = registration::thinned(test::kinectCamera(), step_px);
+  const render::View view = test::viewOf(scene, camera, made.T_map_camera);
+  bench::IcpClouds clouds;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      if (view.part.at<int>(v, u) < 0) {
+        continue;
+      }
+      const cv::Vec3f normal = view.normal_camera.at<cv::Vec3f>(v, u);
+      clouds.model.emplace_back(static_cast<double>(view.depth_m.at<float>(v, u)) * camera.ray(u, v));
+      clouds.model_normals.emplace_back(normal[0], normal[1], normal[2]);
+      const double z = static_cast<double>(made.depth_m.at<float>(v * step_px, u * step_px));
+      if (std::isfinite(z)) {
+        clouds.scan.emplace_back(z * camera.ray(u, v));
+      }
+    }
   }
+  return clouds;
 }
 
-/// The scan's points where the model is seen onto the rendered model (S213-S215), in the camera's frame.
-Outcome runPcl(const Case& made, const registration::ScanConfig& scan_config, double correspondence_m) {
-  const camera::PinholeCamera camera = registration::thinned(test::kinectCamera(), scan_config.step_px);
-  const PclCloud::Ptr source(new PclCloud);
-  const PclCloud::Ptr target(new PclCloud);
+using IcpPeer = Eigen::Isometry3d (*)(const bench::IcpClouds& clouds, double correspondence_m);
+
+Outcome runIcp(IcpPeer align, const Case& made, const registration::ScanConfig& scan_config, double correspondence_m) {
   render::Scene scene;
   scene.add(made.model, made.T_map_start, made.joint_values);
   scene.commit();
-  Eigen::Isometry3d T_camera_moved = Eigen::Isometry3d::Identity();
+  std::size_t points = 0;
+  Eigen::Isometry3d T_camera_moved;
   const double ms = cpuMs([&] {
-    const render::View view = test::viewOf(scene, camera, made.T_map_camera);
-    for (int v = 0; v < camera.height; ++v) {
-      for (int u = 0; u < camera.width; ++u) {
-        if (view.part.at<int>(v, u) >= 0) {
-          const Eigen::Vector3f point = (static_cast<double>(view.depth_m.at<float>(v, u)) * camera.ray(u, v)).cast<float>();
-          const cv::Vec3f normal = view.normal_camera.at<cv::Vec3f>(v, u);
-          pcl::PointNormal p;
-          p.getVector3fMap() = point;
-          p.normal_x = normal[0];
-          p.normal_y = normal[1];
-          p.normal_z = normal[2];
-          target->push_back(p);
-          // The scan where the model is seen: what align() pairs, too.
-          const double z = static_cast<double>(made.depth_m.at<float>(v * scan_config.step_px, u * scan_config.step_px));
-          if (std::isfinite(z)) {
-            p.getVector3fMap() = (z * camera.ray(u, v)).cast<float>();
-            source->push_back(p);
-          }
-        }
-      }
-    }
-    estimateNormals(source);
-    pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
-    icp.setInputSource(source);
-    icp.setInputTarget(target);
-    icp.setMaxCorrespondenceDistance(correspondence_m);
-    icp.setMaximumIterations(50);
-    icp.setTransformationEpsilon(1e-8);
-    PclCloud moved;
-    icp.align(moved);
-    T_camera_moved = Eigen::Isometry3d(icp.getFinalTransformation().cast<double>());
+    const bench::IcpClouds clouds = icpClouds(made, scene, scan_config.step_px);
+    points = clouds.scan.size();
+    T_camera_moved = align(clouds, correspondence_m);
   });
   // The scan was moved onto the model; the model goes the other way.
   Outcome outcome = errorOf(made, made.T_map_camera * T_camera_moved.inverse() * made.T_map_camera.inverse() * made.T_map_start);
   outcome.ms = ms;
-  outcome.points = static_cast<int>(source->size());
+  outcome.points = static_cast<int>(points);
   return outcome;
 }
 
@@ -242,7 +218,7 @@ void print(const char* name, const std::vector<Outcome>& outcomes, double ours_m
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Registration of furniture beside PCL's ICP and distance fields"};
+  CLI::App app{"Registration of furniture beside PCL's and Open3D's ICP and distance fields"};
   int trials = 40;
   double range_m = 0.05;
   double range_deg = 3.0;
@@ -256,12 +232,14 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::vector<Outcome> ours;
   std::vector<Outcome> pcl;
+  std::vector<Outcome> open3d;
   FieldOutcomes on_fields;
   KindFields kind_fields(field_config);
   for (int i = 0; i < trials; ++i) {
     const Case made = makeCase(i, range_m, range_deg);
     ours.push_back(runOurs(made, scan_config));
-    pcl.push_back(runPcl(made, scan_config, 0.1));
+    pcl.push_back(runIcp(bench::alignByPcl, made, scan_config, 0.1));
+    open3d.push_back(runIcp(bench::alignByOpen3d, made, scan_config, 0.1));
     runFields(made, kind_fields.of(made), scan_config, on_fields);
   }
   std::vector<double> ours_ms;
@@ -271,6 +249,7 @@ int main(int argc, char** argv) {
   std::printf("| | points | CPU ms | | error cm | deg | within 3 cm, 3 deg (95 %%) |\n|---|---|---|---|---|---|---|\n");
   print("align()", ours, median(ours_ms));
   print("PCL, ICP with normals", pcl, median(ours_ms));
+  print("Open3D, point to plane", open3d, median(ours_ms));
   print("distance fields", on_fields.found, median(ours_ms));
   print("distance fields, judge()", on_fields.judged, median(ours_ms));
   kind_fields.print();

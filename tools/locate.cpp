@@ -80,6 +80,7 @@ struct Summary {
   int tracked = 0;
   int refined = 0;
   int inconsistent = 0;
+  int ambiguous = 0;
   metrics::ErrorStatistics correction_m;
   metrics::ErrorStatistics correction_rad;
   Verdicts landmarks;
@@ -102,6 +103,7 @@ Summary summarise(const Located& located) {
       continue;
     }
     summary.inconsistent += pose.landmarks->status == registration::RefinementStatus::kInconsistent ? 1 : 0;
+    summary.ambiguous += pose.landmarks->status == registration::RefinementStatus::kAmbiguous ? 1 : 0;
     if (pose.source == PoseSource::kLandmarks) {
       ++summary.refined;
       moved_m.push_back(pose.landmarks->moved_m);
@@ -133,6 +135,7 @@ void printJson(const Summary& summary, const fs::path& out) {
                      {"tracked", summary.tracked},
                      {"refined", summary.refined},
                      {"inconsistent", summary.inconsistent},
+                     {"ambiguous", summary.ambiguous},
                      {"median_correction_m", summary.correction_m.median},
                      {"median_correction_deg", summary.correction_rad.median / base::kRadPerDeg},
                      {"landmarks", landmarks},
@@ -155,6 +158,9 @@ void printText(const Summary& summary, const fs::path& out) {
   }
   if (summary.inconsistent > 0) {
     std::cout << "in " << summary.inconsistent << " frames the furniture contradicts itself or the prior, and was not relied on\n";
+  }
+  if (summary.ambiguous > 0) {
+    std::cout << "in " << summary.ambiguous << " frames the furniture fits in more than one place, and was not relied on\n";
   }
   for (const auto& [id, verdicts] : summary.landmarks) {
     const auto moved = verdicts.find(registration::LandmarkVerdict::kMoved);
