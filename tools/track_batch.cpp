@@ -157,16 +157,13 @@ class Batch {
     locate.seed = session_.options.seed;
     const LocateWorkshop workshop(locate);
     tracking::Localiser localiser = workshop.makeLocaliser();
-    tracking::StateReader reader(home_, task_.home, job.recording->camera(), task_.config.states, threads, task_.object);
+    tracking::StateConfig states = task_.config.states;
+    double& distortion = states.registration.solver.depth_distortion;
+    distortion = std::max(distortion, job.recording->depthDistortion());
+    tracking::StateReader reader(home_, task_.home, job.recording->camera(), states, threads, task_.object);
     result.opening_s = std::chrono::duration<double>(Clock::now() - begin).count();
-    const tracking::StateTools tools{home_,
-                                     task_.home,
-                                     localiser,
-                                     reader,
-                                     task_.config.states,
-                                     threads,
-                                     task_.object,
-                                     task_.jobs == 1 ? progress_.sink() : base::ProgressSink()};
+    const tracking::StateTools tools{home_,  task_.home, localiser,    reader,
+                                     states, threads,    task_.object, task_.jobs == 1 ? progress_.sink() : base::ProgressSink()};
     result.states = tracking::readStates(*job.recording, tools);
     if (task_.has_changes && result.states.found > 0) {
       const auto read = Clock::now();

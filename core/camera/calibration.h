@@ -47,12 +47,13 @@ struct DepthCamera {
 
 /// What `camera.toml` says about the camera of a recording.
 struct Calibration {
-  PinholeCamera color;                             ///< also the camera of the rectified frames
-  LensDistortion distortion;                       ///< of the colour images as they are stored
-  double depth_scale = 1000.0;                     ///< depth units per metre
-  std::optional<DepthCamera> depth;                ///< absent: depth is registered to colour, pixel by pixel, distortion included
-  std::optional<std::int64_t> start_ns;            ///< UTC of stamp 0, nanoseconds since 1970
-  double rate_hz = 30.0;                           ///< of recordings that number their frames instead of stamping them
+  PinholeCamera color;                   ///< also the camera of the rectified frames
+  LensDistortion distortion;             ///< of the colour images as they are stored
+  double depth_scale = 1000.0;           ///< depth units per metre
+  double depth_distortion = 0.003;       ///< of a distance, what varies smoothly over the picture and is not corrected: a deviation
+  std::optional<DepthCamera> depth;      ///< absent: depth is registered to colour, pixel by pixel, distortion included
+  std::optional<std::int64_t> start_ns;  ///< UTC of stamp 0, nanoseconds since 1970
+  double rate_hz = 30.0;                 ///< of recordings that number their frames instead of stamping them
   std::optional<Eigen::Isometry3d> T_base_camera;  ///< the mount on the robot
 };
 

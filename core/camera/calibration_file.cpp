@@ -131,6 +131,15 @@ DepthCorrection readCorrection(const TableReader& reader) {
   return {c[0], c[1], c[2], c[3]};
 }
 
+double readDepthDistortion(const TableReader& reader) {
+  constexpr double kMost = 0.2;
+  const auto share = reader.find("depth_distortion")->value<double>();
+  if (!share || !(*share >= 0.0 && *share <= kMost)) {
+    reader.fail("depth_distortion", "must be a share of the distance from 0 to 0.2, such as 0.003");
+  }
+  return *share;
+}
+
 DepthCamera readDepthCamera(const TableReader& parent, const std::string& file) {
   const toml::table* table = parent.find("depth")->as_table();
   if (table == nullptr) {
@@ -169,11 +178,14 @@ toml::table parseFile(const std::filesystem::path& file) {
 Calibration readCalibration(const std::filesystem::path& file) {
   const toml::table table = parseFile(file);
   const TableReader reader(table, file.string(), "");
-  reader.rejectUnknownKeys(
-      {"width", "height", "fx", "fy", "cx", "cy", "distortion", "depth_scale", "start", "rate_hz", "T_base_camera", "depth"});
+  reader.rejectUnknownKeys({"width", "height", "fx", "fy", "cx", "cy", "distortion", "depth_scale", "depth_distortion", "start", "rate_hz",
+                            "T_base_camera", "depth"});
   Calibration calibration;
   calibration.color = reader.getPinhole();
   calibration.depth_scale = reader.getPositive("depth_scale", "depth units per metre, such as 1000 (millimetres) or 5000 (TUM)", 1e7);
+  if (reader.find("depth_distortion") != nullptr) {
+    calibration.depth_distortion = readDepthDistortion(reader);
+  }
   if (reader.find("distortion") != nullptr) {
     const auto d = reader.getNumbers<5>("distortion", "k1, k2, p1, p2, k3");
     calibration.distortion = {d[0], d[1], d[2], d[3], d[4]};

@@ -35,6 +35,7 @@ class FolderRecording : public Recording {
   [[nodiscard]] std::string format() const override { return listing_.format; }
   [[nodiscard]] ListingStatistics listing() const override { return listing_.statistics; }
   [[nodiscard]] std::optional<Eigen::Isometry3d> T_base_camera() const override { return calibration_.T_base_camera; }
+  [[nodiscard]] double depthDistortion() const override { return calibration_.depth_distortion; }
   [[nodiscard]] std::optional<std::int64_t> startNs() const override { return calibration_.start_ns; }
 
   [[nodiscard]] std::optional<Trajectory> findOdometry() const override {

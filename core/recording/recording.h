@@ -50,6 +50,8 @@ class Recording {
   [[nodiscard]] virtual std::optional<Trajectory> findOdometry() const { return std::nullopt; }
   /// The camera's mount on the robot, if the calibration says it.
   [[nodiscard]] virtual std::optional<Eigen::Isometry3d> T_base_camera() const { return std::nullopt; }
+  /// By what share of the distance depth is wrong in a way that varies smoothly over the picture (a standard deviation); 0: not at all.
+  [[nodiscard]] virtual double depthDistortion() const { return 0.0; }
   /// UTC of stamp 0 in nanoseconds since 1970, if the calibration says it.
   [[nodiscard]] virtual std::optional<std::int64_t> startNs() const { return std::nullopt; }
 };

@@ -35,7 +35,7 @@ struct JointEvidence {
   double value = 0.0;
   double peak_log_likelihood = 0.0;  ///< of `value`, as `log_likelihood`
   double variance = 0.0;             ///< of `value`,
-  double shared_variance = 0.0;      ///< and the share of it that is the same in every image: the joint's axis
+  double shared_variance = 0.0;      ///< and the share of it that is the same in every image: the joint's axis, the sensor's distortion
 };
 
 /// Pixels at the estimate.

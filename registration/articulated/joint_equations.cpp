@@ -2,6 +2,7 @@
 #include "registration/articulated/joint_equations.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace oikos::registration {
@@ -42,11 +43,39 @@ void JointEquations::add(const PixelTerm& term) {
   sum.H.selfadjointView<Eigen::Lower>().rankUpdate(sum.J, term.weight);
   sum.g += term.weight * term.residual_m * sum.J;
   sum.readings += term.reading;
+  if (term.link != 0) {
+    addReach(term, sum.J[i - kLinkSize], sum);  // the last of the chain is its own
+  }
   if (term.link == 0) {
     const Eigen::Vector3i facing = (1.5 * term.normal_map).array().round().cast<int>();
     const std::array<int, 4> surface = {term.is_outline ? 1 : 0, facing.x(), facing.y(), facing.z()};
     shifts_.try_emplace(surface, geometry::Vector6d::Zero()).first->second += term.weight * surface_sigma_m_ * sum.J.head<kBaseSize>();
   }
+}
+
+void JointEquations::addReach(const PixelTerm& term, double reach, LinkSums& sum) {
+  if (term.is_outline) {
+    sum.outline_reach_sq += term.weight * reach * reach;
+    return;
+  }
+  sum.weight += term.weight;
+  sum.reach += term.weight * reach;
+  sum.reach_sq += term.weight * reach * reach;
+  sum.height_m += term.weight * term.height_m;
+}
+
+double JointEquations::distortionGain(int link) const {
+  const LinkSums& sum = sums_[static_cast<std::size_t>(link)];
+  if (sum.weight <= 0.0) {
+    return 0.0;
+  }
+  const double mean = sum.reach / sum.weight;
+  const double told_sq = axes_[static_cast<std::size_t>(link)].is_turn ? sum.reach_sq - sum.weight * mean * mean : sum.reach_sq;
+  if (told_sq <= 0.0) {
+    return 0.0;  // planes do not tell its value
+  }
+  const double by_planes = told_sq / (told_sq + sum.outline_reach_sq);
+  return by_planes * (sum.height_m / sum.weight) / std::sqrt(told_sq / sum.weight);
 }
 
 void JointEquations::gather(double tempering, double most_readings, const std::vector<char>& counting) {

@@ -35,8 +35,9 @@ struct PixelTerm {
   Eigen::Vector3d model_map = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_map = Eigen::Vector3d::Zero();
   double residual_m = 0.0;
-  double weight = 0.0;   ///< 1/m^2
-  double reading = 0.0;  ///< how much of a reading it is
+  double weight = 0.0;    ///< 1/m^2
+  double reading = 0.0;   ///< how much of a reading it is
+  double height_m = 0.0;  ///< of the camera above the plane; of an outline 0: no distance moves it
   bool is_outline = false;
 };
 
@@ -57,6 +58,10 @@ class JointEquations {
   /// What the base's surfaces, each off as a whole, do to g of the base: its covariance. After gather().
   [[nodiscard]] geometry::Matrix6d surfaces() const;
 
+  /// How far (rad or m) the value of the link's joint is moved by distances that are wrong by a share of 1: of a slide, all alike; of a
+  /// turn, in proportion to their distance from the axis, by 1 in the root mean square about the mean, as what is alike moves its place.
+  [[nodiscard]] double distortionGain(int link) const;
+
   Eigen::MatrixXd H;               ///< sum of weight * J^T J
   Eigen::VectorXd g;               ///< sum of weight * J^T r: the step is -H^-1 g
   std::vector<LinkCounts> counts;  ///< by link
@@ -71,7 +76,15 @@ class JointEquations {
     Eigen::VectorXd g;
     Eigen::VectorXd J;
     double readings = 0.0;
+    // Over the planes of the link, weighted: 1, how far a step of the joint's value moves each point along its normal, and
+    // the camera's height above it. Of the outlines, the second moment of that alone.
+    double weight = 0.0;
+    double reach = 0.0;
+    double reach_sq = 0.0;
+    double height_m = 0.0;
+    double outline_reach_sq = 0.0;
   };
+  static void addReach(const PixelTerm& term, double reach, LinkSums& sum);
 
   const JointTree& tree_;
   std::vector<JointAxis> axes_;

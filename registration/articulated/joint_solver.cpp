@@ -57,6 +57,7 @@ std::vector<std::string> JointSolverConfig::validate() const {
       .greater("surface_sigma_m", surface_sigma_m, 0.0)
       .atLeast("wide_sigma_m", wide_sigma_m, surface_sigma_m)
       .require(tempering > 0.0 && tempering <= 1.0, "tempering", tempering, "must be > 0 and <= 1")
+      .between("depth_distortion", depth_distortion, 0.0, 0.2)
       .greater("most_readings", most_readings, 0.0)
       .atLeast("rounds", rounds, 1)
       .messages();
@@ -228,8 +229,10 @@ SolverReport JointSolver::report(const JointEstimates& estimates, const Freedom&
     const auto index = static_cast<Eigen::Index>(freedom.base ? kBaseSize : 0) + kLinkSize * static_cast<Eigen::Index>(i);
     const double of_axis_rad = config_.axis_sigma_deg * kDegree / std::sqrt(3.0);
     const bool is_turn = equations.axes()[link].is_turn;
-    report.shared_variances[link] = is_turn ? of_axis_rad * of_axis_rad : config_.axis_sigma_m * config_.axis_sigma_m;
-    report.variances[link] = covariance(index, index) + (is_turn ? of_axis_rad * of_axis_rad : 0.0);
+    const double distorted = config_.depth_distortion * equations.distortionGain(freedom.links[i]);
+    const double of_axis = is_turn ? of_axis_rad * of_axis_rad : config_.axis_sigma_m * config_.axis_sigma_m;
+    report.shared_variances[link] = of_axis + distorted * distorted;
+    report.variances[link] = covariance(index, index) + (is_turn ? of_axis_rad * of_axis_rad : 0.0) + distorted * distorted;
   }
   if (freedom.base) {
     const Eigen::Matrix3d R_model_map = estimates.standing.T_map_model.linear().transpose();

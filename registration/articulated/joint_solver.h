@@ -26,6 +26,7 @@ struct JointSolverConfig {
   double axis_sigma_deg = 0.5;     ///< and of its direction
   double surface_sigma_m = 0.005;  ///< of the base's surfaces, each as a whole
   double wide_sigma_m = 0.025;     ///< of surfaces, in the first round
+  double depth_distortion = 0.0;   ///< of distances, smoothly over the picture: share that no correction has taken away
   double tempering = 0.2;          ///< of a reading's information: its neighbours repeat it
   double most_readings = 150.0;    ///< that a link counts for, whatever it shows
   int rounds = 3;                  ///< pictures that are taken, each followed by a step
@@ -40,6 +41,7 @@ struct JointSolverConfig {
     visitor("axis_sigma_deg", axis_sigma_deg);
     visitor("surface_sigma_m", surface_sigma_m);
     visitor("wide_sigma_m", wide_sigma_m);
+    visitor("depth_distortion", depth_distortion);
     visitor("tempering", tempering);
     visitor("most_readings", most_readings);
     visitor("rounds", rounds);
@@ -56,7 +58,7 @@ struct JointEstimates {
 struct SolverReport {
   geometry::Matrix6d base_covariance = geometry::Matrix6d::Zero();  ///< of the right perturbation of T_map_model (m, rad)
   std::vector<double> variances;                                    ///< by link: of its joint's value (rad^2 or m^2); the base's is 0
-  std::vector<double> shared_variances;                             ///< of these, what another frame would not change: the axis
+  std::vector<double> shared_variances;                             ///< of these, what another frame would not change: axis, distortion
   std::vector<LinkCounts> counts;                                   ///< by link
   double rms_m = 0.0;                                               ///< of what agrees, from the surfaces
 };

@@ -78,6 +78,7 @@ void addSurfaceTerm(const render::View& view, int u, int v, const PixelSource& s
     return;
   }
   term.residual_m = sight.along * (sight.surface.depth_m - sight.reading_m);
+  term.height_m = sight.along * sight.surface.depth_m;
   term.normal_map = source.T_map_camera.linear() * normal_camera;
   term.model_map = source.T_map_camera * (sight.surface.depth_m * ray);
   equations.add(term);

@@ -77,6 +77,7 @@ camera::Calibration nominalCalibration(const SceneScript& script) {
   const std::vector<double>& d = settings.distortion;
   calibration.distortion = {d[0], d[1], d[2], d[3], d[4]};
   calibration.depth_scale = 1000.0;
+  calibration.depth_distortion = 0.0;  // sensors are simulated without
   calibration.rate_hz = script.rate_hz;
   calibration.start_ns = base::parseRfc3339Ns(script.start);
   calibration.T_base_camera = mountOf(settings);
@@ -107,8 +108,8 @@ std::string toToml(const camera::Calibration& calibration, const std::string& st
   if (!d.isZero()) {
     toml << "distortion = " << listOf({d.k1, d.k2, d.p1, d.p2, d.k3}) << '\n';
   }
-  toml << "depth_scale = " << base::toText(calibration.depth_scale) << "\nstart = \"" << start
-       << "\"\nrate_hz = " << base::toText(calibration.rate_hz) << '\n';
+  toml << "depth_scale = " << base::toText(calibration.depth_scale) << "\ndepth_distortion = " << base::toText(calibration.depth_distortion)
+       << "\nstart = \"" << start << "\"\nrate_hz = " << base::toText(calibration.rate_hz) << '\n';
   if (calibration.T_base_camera) {
     toml << "T_base_camera = " << listOf(*calibration.T_base_camera) << '\n';
   }

@@ -75,6 +75,17 @@ TEST_F(CalibrationFile, ReadsEveryKey) {
   EXPECT_EQ(calibration.depth->T_color_depth.translation().x(), -0.032);
 }
 
+TEST_F(CalibrationFile, DepthsDistortionIsThatOfARealSensorIfNotSaid) {
+  const std::string scale = "depth_scale = 5000";
+  EXPECT_EQ(readCalibration(write(kFull)).depth_distortion, 0.003);
+  EXPECT_EQ(readCalibration(writeChanged(scale, scale + "\ndepth_distortion = 0.008")).depth_distortion, 0.008);
+  EXPECT_EQ(readCalibration(writeChanged(scale, scale + "\ndepth_distortion = 0")).depth_distortion, 0.0);
+  for (const std::string wrong : {"-0.001", "0.3", "nan", "\"small\""}) {
+    expectRejected(scale, scale + "\ndepth_distortion = " + wrong,
+                   {"camera.toml:9", "depth_distortion", "a share of the distance from 0 to 0.2"});
+  }
+}
+
 TEST_F(CalibrationFile, DepthMayBeCorrected) {
   EXPECT_TRUE(readCalibration(write(kFull)).depth->correction.isZero());
   const std::string pose = "T_color_depth = [-0.032, 0.0076, 0.0, 0.0, 0.0, 0.0, 1.0]";

@@ -41,7 +41,11 @@ Scan DoorWorld::scan() const {
   }
   scene.commit();
   const camera::PinholeCamera camera = test::kinectCamera();
-  return makeScan(test::sensed(test::viewOf(scene, camera, T_map_camera), camera, sensor, 1), camera, {});
+  cv::Mat depth_m = test::sensed(test::viewOf(scene, camera, T_map_camera), camera, sensor, 1);
+  for (int u = 0; ramp != 0.0 && u < camera.width; ++u) {
+    depth_m.col(u) *= 1.0 + ramp * 2.0 * (u - camera.cx) / camera.width;
+  }
+  return makeScan(depth_m, camera, {});
 }
 
 ArticulatedResult DoorWorld::registered(const std::vector<double>& joint_values, const ArticulatedConfig& config) const {

@@ -27,6 +27,7 @@ struct DoorWorld {
   std::vector<Obstacle> obstacles;
   camera::DepthSensorKind sensor = camera::DepthSensorKind::kIdeal;
   bool has_wall = true;
+  double ramp = 0.0;  ///< what depth is wrong by: by so much of the distance more at the picture's right border than in its middle
 
   explicit DoorWorld(model::ArticulatedModel built);
   DoorWorld(const std::string& kind, const model::Dimensions& dimensions) : DoorWorld(model::makeShape(kind, dimensions, kind)) {}

@@ -45,6 +45,7 @@ void expectRoundTrip(const SceneScript& script) {
   EXPECT_EQ(read.distortion.p2, written.distortion.p2);
   EXPECT_EQ(read.distortion.k3, written.distortion.k3);
   EXPECT_EQ(read.depth_scale, written.depth_scale);
+  EXPECT_EQ(read.depth_distortion, 0.0);
   EXPECT_EQ(read.rate_hz, script.rate_hz);
   EXPECT_EQ(read.start_ns, base::parseRfc3339Ns(script.start));
   ASSERT_TRUE(read.T_base_camera);
