@@ -14,18 +14,19 @@ namespace oikos::tracking {
 
 struct MovedFurnitureConfig {
   registration::ScanConfig scan{.step_px = 2, .normal_radius_px = 3};  ///< of images of 320×240
-  registration::SearchConfig search;
-  int views = 5;                 ///< of a piece, from directions apart
-  double view_apart_deg = 12.0;  ///< so far
+  /// Asks for less overlap than where one view stands alone, as views have to agree.
+  registration::SearchConfig search{.min_overlap = 0.68};
+  int views = 6;                 ///< of a piece, from directions apart
+  double view_apart_deg = 5.0;   ///< so far
   double best_distance_m = 2.0;  ///< views from about here come first
   double max_distance_m = 4.0;   ///< from the piece's middle
-  double min_fit = 0.6;          ///< share of the model that a view must explain
-  double agree_m = 0.05;         ///< views that find the piece within so much of each other agree
-  double agree_deg = 3.0;
+  double min_fit = 0.5;          ///< share of the model that a view must explain, if another one agrees;
+  double lone_fit = 0.8;         ///< one that stands alone
+  double agree_m = 0.03;         ///< views that find the piece within so much of each other agree
+  double agree_deg = 2.0;
   double min_moved_m = 0.04;  ///< nearer to where it was believed, and turned less, it has not moved: the belief is a tape's
   double min_moved_deg = 3.0;
-  double lone_fit = 0.8;  ///< what one view alone must explain
-  int threads = 1;        ///< the result does not depend on it
+  int threads = 1;  ///< the result does not depend on it
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -35,11 +36,11 @@ struct MovedFurnitureConfig {
     visitor("best_distance_m", best_distance_m);
     visitor("max_distance_m", max_distance_m);
     visitor("min_fit", min_fit);
+    visitor("lone_fit", lone_fit);
     visitor("agree_m", agree_m);
     visitor("agree_deg", agree_deg);
     visitor("min_moved_m", min_moved_m);
     visitor("min_moved_deg", min_moved_deg);
-    visitor("lone_fit", lone_fit);
   }
   [[nodiscard]] std::vector<std::string> validate() const;
 };
