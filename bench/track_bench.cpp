@@ -31,8 +31,7 @@ void report(const bench::ScenarioTally& tally) {
               rate(tally.found, tally.expected).c_str(), tally.false_events, tally.events, rate(tally.false_events, tally.events).c_str());
   std::printf("changes of which fewer than two images show 15 %% of the part: %d, of these found %d\n", tally.hardly_shown,
               tally.hardly_shown_found);
-  std::printf("moments of joints that moved in view: worst off by %.1f s of %zu\n",
-              tally.moments_s.empty() ? 0.0 : *std::max_element(tally.moments_s.begin(), tally.moments_s.end()), tally.moments_s.size());
+  bench::report(tally.moments, bench::kDriveRate_hz);
   std::printf("recordings without a change missed or an event too many: %d of %d\n", tally.clean, tally.recordings);
   std::printf("%d frames, %.1f frames/s in reading (best recording %.1f), %.1f CPU ms a frame with opening; peak %.0f MB\n", tally.frames,
               tally.frames / tally.seconds, tally.best_rate, 1000.0 * tally.cpu_s / std::max(1, tally.frames), tally.peak_mb);

@@ -56,8 +56,11 @@ void printEvent(const tracking::StateEvent& event) {
   if (event.sigma > 0.0) {
     std::cout << " +- " << valueText(event.sigma, type);
   }
-  std::cout << "  " << base::toRfc3339(event.event.time_ns) << ", frame " << *event.event.frame << ", sure to "
-            << toFixedText(100.0 * event.event.confidence, 1) << " %\n";
+  std::cout << "  " << base::toRfc3339(event.event.time_ns) << ", frame " << *event.event.frame;
+  if (event.last_before && *event.event.frame - event.last_before->frame > 1) {
+    std::cout << ", as before up to frame " << event.last_before->frame;
+  }
+  std::cout << ", sure to " << toFixedText(100.0 * event.event.confidence, 1) << " %\n";
 }
 
 /// Every joint in view, with its value at the recording's end.

@@ -150,6 +150,17 @@ Json objectJson(const tracking::ObjectReading& object, std::int64_t start_ns) {
   return json;
 }
 
+Json eventJson(const tracking::StateEvent& event, std::int64_t start_ns) {
+  Json json = semantic::toJson(event.event);
+  json["change"] = event.word;
+  if (event.event.kind == semantic::EventKind::kJoint) {
+    json["last_before"] = event.last_before
+                              ? Json{{"time", base::toRfc3339(start_ns + event.last_before->stamp_ns)}, {"frame", event.last_before->frame}}
+                              : Json(nullptr);
+  }
+  return json;
+}
+
 Json recordingJson(const TrackedRecording& recording, bool has_changes) {
   Json json = {{"recording", recording.folder.string()}, {"status", base::toString(recording.status)}};
   if (!recording.name.empty()) {
@@ -175,9 +186,7 @@ Json recordingJson(const TrackedRecording& recording, bool has_changes) {
   json["frames_per_s"] = framesPerSecond(states);
   json["events"] = Json::array();
   for (const tracking::StateEvent& event : recording.events) {
-    Json one = semantic::toJson(event.event);
-    one["change"] = event.word;
-    json["events"].push_back(std::move(one));
+    json["events"].push_back(eventJson(event, recording.start_ns));
   }
   json["pieces"] = piecesJson(recording);
   json["knobs"] = knobsJson(states);

@@ -20,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr double kRate_hz = 10.0;
 constexpr double kShown = 0.15;  // of the part's pixels, for an image to show it,
 constexpr int kShowing = 2;      // and so many images have to
 
@@ -34,15 +33,22 @@ std::map<std::string, Json> wrongJoints(const Json& states) {
   return wrong;
 }
 
-/// The event's time against the change's.
-double momentError_s(const Json& events, const StateChange& change) {
-  double error_s = 0.0;
+/// What the last event of the joint says of when it was moved, against the pictures.
+MovedInDrive momentOf(const Json& events, const StateChange& change, const ShownParts& shown) {
+  MovedInDrive moved;
+  moved.id = change.joint.id;
   for (const Json& event : events) {
     if (event["subject"] == change.joint.id) {
-      error_s = std::abs(event["frame"].get<double>() / kRate_hz - change.at_s);
+      moved.told = event["frame"].get<int>();
+      moved.last_before = event["last_before"].is_null() ? -1 : event["last_before"]["frame"].get<int>();
     }
   }
-  return error_s;
+  const std::vector<double> shares = shown.sharesOf(change.joint.id);
+  moved.moment = static_cast<int>(std::lround(change.at_s * kDriveRate_hz));  // as the scene has it: to a tenth of a second
+  const auto moment = shares.begin() + moved.moment;
+  moved.first_shown = static_cast<int>(std::find_if(moment, shares.end(), [](double share) { return share >= kShown; }) - shares.begin());
+  moved.is_in_view = moved.moment > 0 && moment[-1] >= kShown && moved.first_shown == moved.moment;
+  return moved;
 }
 
 /// What a change's images say: how many show it after it has happened, and how much the best one does.
@@ -54,7 +60,7 @@ Showing showingOf(const ShownParts& shown, const StateChange& change) {
   Showing showing;
   const std::vector<double> shares = shown.sharesOf(change.joint.id);
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    if (static_cast<double>(i) / kRate_hz >= change.at_s) {
+    if (static_cast<double>(i) / kDriveRate_hz >= change.at_s) {
       showing.images += shares[i] >= kShown ? 1 : 0;
       showing.best = std::max(showing.best, shares[i]);
     }
@@ -116,7 +122,7 @@ simulate::SceneScript Scenario::scriptOf(int number, const Route& route, const s
   simulate::SceneScript script;
   const std::string day = base::toFixedText(number / kADay + 103, 0).substr(1);
   script.start = "2026-03-" + day + "T" + std::to_string(10 + number % kADay) + ":00:00Z";
-  script.rate_hz = kRate_hz;
+  script.rate_hz = kDriveRate_hz;
   script.path.start = route.start;
   script.path.waypoints = route.waypoints;
   script.path.speed_mps = 0.6;
@@ -206,7 +212,8 @@ void Scenario::judge(int number, const std::vector<StateChange>& changes, const 
                 base::toFixedText(100.0 * showing.best, 1) + " %\n";
     }
     if (is_found && change.at_s > 0.0) {
-      tally.moments_s.push_back(momentError_s(recording["events"], change));
+      tally.moments.push_back(momentOf(recording["events"], change, shown));
+      hardly += "     " + textOf(tally.moments.back()) + "\n";
     }
   }
   tally.events += static_cast<int>(recording["events"].size());

@@ -9,10 +9,13 @@
 #include <vector>
 
 #include "bench/mapping/child_process.h"
+#include "bench/track/moments.h"
 #include "bench/track/routes.h"
 #include "tools/simulate/scene_script.h"
 
 namespace oikos::bench {
+
+constexpr double kDriveRate_hz = 10.0;
 
 struct ScenarioOptions {
   std::filesystem::path oikos;
@@ -33,7 +36,7 @@ struct ScenarioTally {
   int hardly_shown_found = 0;
   int events = 0;
   int false_events = 0;
-  std::vector<double> moments_s;  ///< of joints that moved in view: how far off the event is
+  std::vector<MovedInDrive> moments;  ///< of changes that were found
   int frames = 0;
   double seconds = 0.0;
   double best_rate = 0.0;

@@ -14,77 +14,13 @@
 
 #include "core/base/config_rules.h"
 #include "core/base/error.h"
+#include "registration/articulated/joint_chances.h"
 
 namespace oikos::registration {
 
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-/// The joint's range, cut finely.
-struct Bins {
-  double first = 0.0;
-  double width = 0.0;
-  std::size_t count = 0;
-  [[nodiscard]] double at(std::size_t i) const { return first + width * static_cast<double>(i); }
-};
-
-Bins binsOf(const JointEvidence& evidence, const JointFusionConfig& config) {
-  const double range = evidence.values.back() - evidence.values.front();
-  const double width = evidence.is_turn ? config.bin_deg * kDegree : config.bin_m;
-  const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(range / width)));
-  return {evidence.values.front(), range / static_cast<double>(steps), steps + 1};
-}
-
-/// The profile between its values, not normalised.
-std::vector<double> profileOver(const Bins& bins, const JointEvidence& evidence) {
-  const double best = *std::max_element(evidence.log_likelihood.begin(), evidence.log_likelihood.end());
-  const double stride = evidence.values[1] - evidence.values[0];
-  std::vector<double> density(bins.count);
-  for (std::size_t i = 0; i < bins.count; ++i) {
-    const double place = std::clamp((bins.at(i) - evidence.values.front()) / stride, 0.0, static_cast<double>(evidence.values.size() - 1));
-    const auto below = std::min(static_cast<std::size_t>(place), evidence.values.size() - 2);
-    const double share = place - static_cast<double>(below);
-    const double log_likelihood = (1.0 - share) * evidence.log_likelihood[below] + share * evidence.log_likelihood[below + 1];
-    density[i] = std::exp(log_likelihood - best);
-  }
-  return density;
-}
-
-void normalise(std::vector<double>& density) {
-  double sum = 0.0;
-  for (const double value : density) {
-    sum += value;
-  }
-  for (double& value : density) {
-    value /= sum;
-  }
-}
-
-/// Log of the chance of each bin, as one image has it; misreadings may be anywhere.
-std::vector<double> logChances(const Bins& bins, const JointSighting& sighting, const JointFusionConfig& config) {
-  const JointEvidence& evidence = sighting.evidence;
-  std::vector<double> chance = profileOver(bins, evidence);
-  normalise(chance);
-  const bool is_found = sighting.status == JointStatus::kFound;
-  if (is_found) {
-    const double variance = evidence.variance + bins.width * bins.width / 12.0;
-    std::vector<double> peak(bins.count);
-    for (std::size_t i = 0; i < bins.count; ++i) {
-      const double off = bins.at(i) - evidence.value;
-      peak[i] = std::exp(-0.5 * off * off / variance);
-    }
-    normalise(peak);
-    for (std::size_t i = 0; i < bins.count; ++i) {
-      chance[i] = sighting.confidence * peak[i] + (1.0 - sighting.confidence) * chance[i];
-    }
-  }
-  const double misread = is_found ? config.misread : config.misread_unsure;
-  for (double& value : chance) {
-    value = std::log((1.0 - misread) * value + misread / static_cast<double>(bins.count));
-  }
-  return chance;
-}
 
 /// Sums up images one after the other, those from one place for less than they are.
 class SpanSum {
@@ -179,7 +115,7 @@ std::vector<std::size_t> bestSplits(const std::vector<std::vector<double>>& log_
 }
 
 /// Mean and spread about the best bin, and how much of the posterior lies there.
-void conclude(const Bins& bins, const std::vector<double>& total, const JointEvidence& evidence, const JointDecisionConfig& config,
+void conclude(const JointBins& bins, const std::vector<double>& total, const JointEvidence& evidence, const JointDecisionConfig& config,
               bool has_witness, JointSpan& span) {
   const auto best = static_cast<std::size_t>(std::max_element(total.begin(), total.end()) - total.begin());
   const double window = evidence.is_turn ? config.window_deg * kDegree : config.window_m;
@@ -214,7 +150,7 @@ std::vector<JointSighting> seeing(const std::vector<JointSighting>& sightings, s
   std::vector<JointSighting> kept;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     OIKOS_CHECK(i == 0 || sightings[i].stamp_ns >= sightings[i - 1].stamp_ns);
-    if (sightings[i].status != JointStatus::kNotInView && !sightings[i].evidence.log_likelihood.empty()) {
+    if (seesJoint(sightings[i])) {
       OIKOS_CHECK(kept.empty() || sightings[i].evidence.values == kept.front().evidence.values);
       kept.push_back(sightings[i]);
       indices.push_back(i);
@@ -245,7 +181,7 @@ std::vector<JointSpan> fuse(const std::vector<JointSighting>& sightings, const J
   if (kept.empty()) {
     return {};
   }
-  const Bins bins = binsOf(kept.front().evidence, config);
+  const JointBins bins = binsOf(kept.front().evidence, config);
   std::vector<std::vector<double>> log_chances;
   log_chances.reserve(kept.size());
   for (const JointSighting& sighting : kept) {

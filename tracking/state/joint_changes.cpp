@@ -49,16 +49,17 @@ std::vector<JointChange> findChanges(const std::vector<JointStay>& stays, const 
   const Limits limits = limitsOf(joint, config);
   const double closed = closedValue(joint);
   Known known{joint.value, limits.believed_sigma * limits.believed_sigma};
-  bool is_seen = false;
+  std::optional<std::size_t> stay_before;
   std::vector<JointChange> changes;
-  for (const JointStay& stay : stays) {
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    const JointStay& stay = stays[i];
     if (!stay.isFound() || stay.found < config.min_images) {
       continue;
     }
     const double difference = std::abs(stay.span.value - known.value);
     const double sigma = std::sqrt(stay.span.variance + known.variance);
     if (difference <= limits.min_change || difference <= config.significance * sigma) {
-      is_seen = true;
+      stay_before = i;
       continue;
     }
     JointChange change;
@@ -70,14 +71,11 @@ std::vector<JointChange> findChanges(const std::vector<JointStay>& stays, const 
     change.kind = kindOf(change.before, change.after, closed, limits.closed);
     change.sigma = std::sqrt(stay.span.variance);
     change.confidence = stay.span.confidence * std::erf(difference / sigma / std::sqrt(2.0));
-    change.stamp_ns = stay.first_ns;
-    change.frame = stay.first_frame;
-    change.evidence_frame = stay.best_frame;
-    change.crop = stay.crop;
-    change.was_seen_before = is_seen;
+    change.stay = i;
+    change.stay_before = stay_before;
     changes.push_back(change);
     known = {change.after, stay.span.variance};
-    is_seen = true;
+    stay_before = i;
   }
   return changes;
 }

@@ -3,7 +3,8 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,15 +24,12 @@ constexpr auto enumTable(JointChangeKind) {
 /// A joint that stands elsewhere than was believed.
 struct JointChange {
   JointChangeKind kind = JointChangeKind::kMoved;
-  double before = 0.0;           ///< rad or m
-  double after = 0.0;            ///< within the joint's limits
-  double sigma = 0.0;            ///< of `after`
-  double confidence = 0.0;       ///< that it stands there, and not where it stood before
-  std::int64_t stamp_ns = 0;     ///< of the first image that shows it
-  int frame = 0;                 ///< that image,
-  int evidence_frame = 0;        ///< and the one that shows most of the part,
-  registration::PixelBox crop;   ///< and where the piece is in that
-  bool was_seen_before = false;  ///< the recording shows both: it happened between two of its images, not before it
+  double before = 0.0;                     ///< rad or m
+  double after = 0.0;                      ///< within the joint's limits
+  double sigma = 0.0;                      ///< of `after`
+  double confidence = 0.0;                 ///< that it stands there, and not where it stood before
+  std::size_t stay = 0;                    ///< index of the stay that it ended in,
+  std::optional<std::size_t> stay_before;  ///< and of the last one where it stood before; nothing: that was before the recording
 };
 
 /// Each stay of the joint is tested against the one before it, the first against what is believed: `joint.value`, to within

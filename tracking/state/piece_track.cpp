@@ -6,6 +6,8 @@
 #include <cstdlib>
 
 #include "core/base/degrees.h"
+#include "registration/articulated/joint_moment.h"
+#include "tracking/state/frame_choice.h"
 
 namespace oikos::tracking {
 
@@ -15,14 +17,22 @@ using registration::JointSighting;
 using registration::JointSpan;
 using registration::JointStatus;
 
-std::vector<JointSighting> sightingsOf(const std::vector<PieceShot>& shots, std::size_t joint, const std::vector<SeenFrame>& frames) {
-  std::vector<JointSighting> sightings;
-  for (const PieceShot& shot : shots) {
-    const SeenFrame& frame = frames[static_cast<std::size_t>(shot.index)];
-    const registration::JointEstimate& estimate = shot.joints[joint];
-    sightings.push_back({frame.stamp_ns, frame.T_map_camera, estimate.status, estimate.confidence, estimate.evidence});
+/// The images that a change lies between: the second shows it.
+struct Stretch {
+  std::size_t last_before = 0;
+  std::size_t first_after = 0;
+};
+Stretch stretchOf(const std::vector<JointSighting>& sightings, const JointSpan& before, const JointSpan& after,
+                  const registration::JointFusionConfig& config) {
+  if (before.status == JointStatus::kFound && after.status == JointStatus::kFound && before.value != after.value) {
+    const auto begin = sightings.begin() + static_cast<std::ptrdiff_t>(before.first);
+    const auto end = sightings.begin() + static_cast<std::ptrdiff_t>(after.last) + 1;
+    const auto moment = registration::findMoment({begin, end}, {before.value, after.value}, config);
+    if (moment && moment->last_before) {
+      return {before.first + *moment->last_before, before.first + moment->first_after};
+    }
   }
-  return sightings;
+  return {before.last, after.first};
 }
 
 }  // namespace
@@ -52,13 +62,32 @@ void PieceTrack::want(std::optional<int> index) {
   }
 }
 
+std::vector<JointSighting> PieceTrack::sightings(std::size_t joint, const std::vector<SeenFrame>& frames) const {
+  std::vector<JointSighting> sightings;
+  for (const PieceShot& shot : shots) {
+    const SeenFrame& frame = frames[static_cast<std::size_t>(shot.index)];
+    const registration::JointEstimate& estimate = shot.joints[joint];
+    sightings.push_back({frame.stamp_ns, frame.T_map_camera, estimate.status, estimate.confidence, estimate.evidence});
+  }
+  return sightings;
+}
+
 std::vector<std::vector<JointSpan>> PieceTrack::spans(const std::vector<SeenFrame>& frames,
                                                       const registration::JointFusionConfig& config) const {
   std::vector<std::vector<JointSpan>> spans;
   for (std::size_t joint = 0; !shots.empty() && joint < shots.front().joints.size(); ++joint) {
-    spans.push_back(shots.size() == 1 ? loneSpan(joint, frames) : registration::fuse(sightingsOf(shots, joint, frames), config));
+    spans.push_back(shots.size() == 1 ? loneSpan(joint, frames) : registration::fuse(sightings(joint, frames), config));
   }
   return spans;
+}
+
+void PieceTrack::wantMoment(const JointSpan& before, const JointSpan& after, std::size_t joint, int piece,
+                            const std::vector<SeenFrame>& frames, const registration::JointFusionConfig& config) {
+  const Stretch stretch = stretchOf(sightings(joint, frames), before, after, config);
+  const std::size_t begin = stretch.last_before;
+  const std::size_t end = stretch.first_after;
+  want(frameBetween(frames, piece, shots[begin].index, shots[begin + 1].index));
+  want(frameBetween(frames, piece, shots[end - 1].index, shots[end].index));
 }
 
 int PieceTrack::foundIn(const JointSpan& span, std::size_t joint) const {

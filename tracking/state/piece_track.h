@@ -19,7 +19,7 @@ namespace oikos::tracking {
 
 /// A time in which a joint stood still.
 struct JointStay {
-  registration::JointSpan span;  ///< its indices mean nothing here
+  registration::JointSpan span;  ///< its indices are those of the joint's images
   std::int64_t first_ns = 0;     ///< of the first image that has found it by itself; if none has: of the first that may show it
   int first_frame = 0;           ///< that image, of the recording
   int images = 0;
@@ -55,9 +55,15 @@ struct PieceTrack {
   /// Unless it was read.
   void want(std::optional<int> index);
 
+  /// What each shot says of a joint.
+  [[nodiscard]] std::vector<registration::JointSighting> sightings(std::size_t joint, const std::vector<SeenFrame>& frames) const;
   /// By joint: the times in which each stood still. Of one image alone, what that says: there is nothing to hold it against.
   [[nodiscard]] std::vector<std::vector<registration::JointSpan>> spans(const std::vector<SeenFrame>& frames,
                                                                         const registration::JointFusionConfig& config) const;
+  /// Frames to be read next, to find the moment between two spans, the second following the first: nearer to the last image that shows the
+  /// joint where it was, and to the first that shows it gone. Of images between them that cannot tell, none is read twice.
+  void wantMoment(const registration::JointSpan& before, const registration::JointSpan& after, std::size_t joint, int piece,
+                  const std::vector<SeenFrame>& frames, const registration::JointFusionConfig& config);
   [[nodiscard]] int foundIn(const registration::JointSpan& span, std::size_t joint) const;
   /// The first image of the span that has found the joint; one has.
   [[nodiscard]] std::size_t witnessOf(const registration::JointSpan& span, std::size_t joint) const;

@@ -35,17 +35,20 @@ const semantic::Articulation* findArticulation(const semantic::Home& home, const
   return object != nullptr && object->articulation ? &*object->articulation : nullptr;
 }
 
-StateEvent eventOf(const JointChange& change, const semantic::ObjectId& object, const semantic::Joint& joint, const EventSource& source) {
+StateEvent eventOf(const JointChange& change, const JointReading& reading, const semantic::ObjectId& object, const EventSource& source,
+                   const registration::JointFusionConfig& config) {
+  const ChangeMoment moment = momentOf(change, reading, config);
+  const JointStay& stay = reading.stays[change.stay];
   semantic::Event event;
-  event.time_ns = source.start_ns + change.stamp_ns;
+  event.time_ns = source.start_ns + moment.first_after.stamp_ns;
   event.recording = source.recording;
-  event.frame = change.frame;
-  event.subject = joint.id.value;
+  event.frame = moment.first_after.frame;
+  event.subject = reading.id.value;
   event.kind = semantic::EventKind::kJoint;
-  event.before = semantic::JointValue{joint.type, change.before};
-  event.after = semantic::JointValue{joint.type, change.after};
+  event.before = semantic::JointValue{reading.type, change.before};
+  event.after = semantic::JointValue{reading.type, change.after};
   event.confidence = std::clamp(change.confidence, 0.0, 1.0);
-  return {event, object, std::string(base::toString(change.kind)), change.sigma, change.evidence_frame, change.crop};
+  return {event, object, std::string(base::toString(change.kind)), change.sigma, stay.best_frame, stay.crop, moment.last_before};
 }
 
 StateEvent eventOf(const KnobTurn& turn, const TrackedKnob& knob, const EventSource& source) {
@@ -94,7 +97,7 @@ std::vector<StateEvent> stateEvents(const RecordingStates& states, const semanti
         continue;
       }
       for (const JointChange& change : findChanges(reading.stays, *joint, config.change)) {
-        events.push_back(eventOf(change, piece.id, *joint, source));
+        events.push_back(eventOf(change, reading, piece.id, source, config.fusion));
       }
     }
   }

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "registration/scan.h"
 #include "semantic/history/event.h"
 #include "semantic/model/home.h"
+#include "tracking/state/change_moment.h"
 #include "tracking/state/recording_states.h"
 
 namespace oikos::tracking {
@@ -17,10 +19,11 @@ namespace oikos::tracking {
 struct StateEvent {
   semantic::Event event;  ///< without `evidence`
   semantic::ObjectId object;
-  std::string word;             ///< opened, closed, moved, turned, missed
-  double sigma = 0.0;           ///< of what stands in `after`: rad of a hinge, else m; 0 of a knob and of what is missed
-  int evidence_frame = 0;       ///< the picture that shows it best,
-  registration::PixelBox crop;  ///< and where; empty: all of it
+  std::string word;                           ///< opened, closed, moved, turned, missed
+  double sigma = 0.0;                         ///< of what stands in `after`: rad of a hinge, else m; 0 of a knob and of what is missed
+  int evidence_frame = 0;                     ///< the picture that shows it best,
+  registration::PixelBox crop;                ///< and where; empty: all of it
+  std::optional<ImageTime> last_before = {};  ///< of a door or drawer: as ChangeMoment has it; the event's time is its `first_after`
 };
 
 struct EventSource {

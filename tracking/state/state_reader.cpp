@@ -136,8 +136,7 @@ void StateReader::halve() {
     const std::vector<std::vector<JointSpan>> spans = track.spans(frames_, config_.fusion);
     for (std::size_t j = 0; j < spans.size(); ++j) {
       for (std::size_t k = 0; k + 1 < spans[j].size(); ++k) {
-        track.want(
-            frameBetween(frames_, static_cast<int>(p), track.shots[spans[j][k].last].index, track.shots[spans[j][k + 1].first].index));
+        track.wantMoment(spans[j][k], spans[j][k + 1], j, static_cast<int>(p), frames_, config_.fusion);
       }
       for (const JointSpan& span : spans[j]) {
         if (track.foundIn(span, j) == 1 && config_.change.min_images > 1) {
@@ -224,7 +223,10 @@ std::vector<PieceReading> StateReader::conclude() const {
     const std::vector<std::vector<JointSpan>> spans = track.spans(frames_, config_.fusion);
     for (std::size_t j = 0; j < spans.size(); ++j) {
       const semantic::Joint& joint = pieces_[p].joints[static_cast<std::size_t>(track.shots.front().joints[j].joint)];
-      JointReading of_joint{joint.id, joint.type, {}};
+      JointReading of_joint{joint.id, joint.type, {}, track.sightings(j, frames_), {}};
+      for (const PieceShot& shot : track.shots) {
+        of_joint.frames.push_back(frames_[static_cast<std::size_t>(shot.index)].frame);
+      }
       for (const JointSpan& span : spans[j]) {
         JointStay stay = track.stayOf(span, j, frames_);
         stay.crop = cropOf(pieces_[p], track.shots.front().joints[j].joint, span.value, seen(stay.best_frame).T_map_camera, camera_);

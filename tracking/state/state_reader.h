@@ -27,7 +27,9 @@ namespace oikos::tracking {
 struct JointReading {
   semantic::JointId id;
   semantic::JointType type = semantic::JointType::kRevolute;
-  std::vector<JointStay> stays;  ///< in the order of time; empty: no image sees it
+  std::vector<JointStay> stays;                        ///< in the order of time; empty: no image sees it
+  std::vector<registration::JointSighting> sightings;  ///< what each image of the piece says, in the order of time,
+  std::vector<int> frames;                             ///< and which frame of the recording that is
 };
 
 /// What a recording says of a piece.

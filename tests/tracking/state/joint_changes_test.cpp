@@ -69,10 +69,8 @@ TEST(JointChanges, ADoorThatStandsOpenWasOpened) {
   EXPECT_NEAR(changes[0].after, 70.0 * kDegree, 1e-12);
   EXPECT_NEAR(changes[0].sigma, 0.7 * kDegree, 1e-12);
   EXPECT_GT(changes[0].confidence, 0.99);
-  EXPECT_EQ(changes[0].stamp_ns, 3'000'000'000);
-  EXPECT_EQ(changes[0].frame, 90);
-  EXPECT_EQ(changes[0].evidence_frame, 93);
-  EXPECT_FALSE(changes[0].was_seen_before);
+  EXPECT_EQ(changes[0].stay, 0U);
+  EXPECT_EQ(changes[0].stay_before, std::nullopt);
 }
 
 TEST(JointChanges, ClosedIsClosedToTheLastDegree) {
@@ -85,14 +83,16 @@ TEST(JointChanges, ClosedIsClosedToTheLastDegree) {
   EXPECT_EQ(pushed[0].after, 0.0);
 }
 
-TEST(JointChanges, InTheMiddleOfARecordingEachHasItsMoment) {
-  const auto changes = findChanges({turned(0, 0.4), turned(1, 60.0), turned(2, 85.0), turned(3, 0.2)}, hinge(0.0), {});
+TEST(JointChanges, InTheMiddleOfARecordingEachFollowsAStay) {
+  const JointStay in_passing = stay(1, 30.0 * kDegree, 0.7 * kDegree, JointStatus::kFound, 1);
+  const auto changes = findChanges({turned(0, 0.4), in_passing, turned(1, 60.0), turned(2, 85.0), turned(3, 0.2)}, hinge(0.0), {});
   ASSERT_EQ(changes.size(), 3U);
   EXPECT_EQ(changes[0].kind, JointChangeKind::kOpened);
-  EXPECT_EQ(changes[0].stamp_ns, 1'500'000'000);
-  EXPECT_TRUE(changes[0].was_seen_before);
+  EXPECT_EQ(changes[0].stay, 2U);
+  EXPECT_EQ(changes[0].stay_before, 0U);
   EXPECT_EQ(changes[1].kind, JointChangeKind::kMoved);
   EXPECT_NEAR(changes[1].before, 60.0 * kDegree, 1e-12);
+  EXPECT_EQ(changes[1].stay_before, 2U);
   EXPECT_EQ(changes[2].kind, JointChangeKind::kClosed);
 }
 

@@ -88,7 +88,8 @@ TEST(StateEvents, AllKindsComeInTheOrderOfTime) {
   open.span.confidence = 1.0;
   open.first_ns = 9'000;
   open.images = open.found = 3;
-  states.pieces = {{{"fridge"}, 3, 3, 3, 0, {{{"fridge-door-joint"}, semantic::JointType::kRevolute, {open}}}, {}}};
+  const registration::JointSighting silent;  // the stay's first image is its moment
+  states.pieces = {{{"fridge"}, 3, 3, 3, 0, {{{"fridge-door-joint"}, semantic::JointType::kRevolute, {open}, {silent}, {0}}}, {}}};
   std::vector<StateEvent> events = stateEvents(states, homeWithDesk(), {"monday", 0}, {});
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[0].event.subject, "desk");

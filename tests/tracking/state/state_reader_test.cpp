@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <opencv2/core.hpp>
@@ -133,10 +134,44 @@ TEST(StateReader, ADoorThatIsOpenedMeanwhileIsOneEventAtItsMoment) {
   EXPECT_EQ(event.recording, "drive");
   EXPECT_EQ(event.frame, kOpening);
   EXPECT_EQ(event.time_ns, 1'000'000'000'000 + Drive::poseOf(kOpening).stamp_ns);
+  ASSERT_TRUE(events[0].last_before);
+  EXPECT_EQ(events[0].last_before->frame, kOpening - 1);
+  EXPECT_EQ(events[0].last_before->stamp_ns, Drive::poseOf(kOpening - 1).stamp_ns);
   EXPECT_NEAR(std::get<semantic::JointValue>(*event.after).value, 55.0 * kDegree, 2.0 * kDegree);
   EXPECT_TRUE(!readings.pieces[0].joints[1].stays.empty());
   EXPECT_GT(event.confidence, 0.99);
   EXPECT_LT(events[0].crop.left, events[0].crop.right);
+}
+
+/// Something stands before the camera meanwhile: these images cannot tell, and the ones at both ends are found.
+TEST(StateReader, OpenedOutOfSightItIsToldBetweenTheImagesThatShowIt) {
+  const semantic::Home home = homeWithFridge();
+  Frames frames = driveOpeningBefore(7, 55.0 * kDegree, 3);
+  for (int i = 5; i < 10; ++i) {
+    frames[i].depth_m.setTo(0.6F);
+  }
+  const auto events = stateEvents(readAll(home, frames, 1), home, {"drive", 0}, {});
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].event.frame, 10);
+  ASSERT_TRUE(events[0].last_before);
+  EXPECT_EQ(events[0].last_before->frame, 4);
+}
+
+/// The moment is that of the first image in which it has left its place.
+TEST(StateReader, ADoorThatTakesItsTimeHasLeftItsPlaceFirst) {
+  const semantic::Home home = homeWithFridge();
+  const Drive drive(4);
+  Frames frames;
+  for (int i = 0; i < kFrames; ++i) {
+    frames[i] = drive.frame(i, {0.0, std::clamp(16.0 * (i - 4), 0.0, 64.0) * kDegree});  // from frame 5 to frame 8
+  }
+  const auto events = stateEvents(readAll(home, frames, 1), home, {"drive", 0}, {});
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].word, "opened");
+  EXPECT_NEAR(std::get<semantic::JointValue>(*events[0].event.after).value, 64.0 * kDegree, 2.0 * kDegree);
+  EXPECT_EQ(events[0].event.frame, 5);
+  ASSERT_TRUE(events[0].last_before);
+  EXPECT_EQ(events[0].last_before->frame, 4);
 }
 
 /// Of a door that is open for a moment one of the chosen images tells; by itself it might be a misreading.
