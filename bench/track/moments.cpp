@@ -41,7 +41,7 @@ std::string textOf(const MovedInDrive& moved) {
 
 void report(const std::vector<MovedInDrive>& moments, double rate_hz) {
   reportThose(moments, true, "joints that moved in view", rate_hz);
-  reportThose(moments, false, "joints that moved while the camera looked elsewhere, from when it shows them", rate_hz);
+  reportThose(moments, false, "joints that moved hardly in view, from when the camera shows them", rate_hz);
 }
 
 }  // namespace oikos::bench
