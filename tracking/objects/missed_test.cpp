@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 namespace oikos::tracking {
 
@@ -12,21 +14,23 @@ int countOf(const std::vector<TimedSight>& sights, SightVerdict verdict) {
   return static_cast<int>(std::count_if(sights.begin(), sights.end(), [&](const TimedSight& one) { return one.sight.verdict == verdict; }));
 }
 
-/// Those that do not see it, after all that have something in its place.
+/// Those that speak against it, after all that have something in its place.
 std::vector<const TimedSight*> missesOf(const std::vector<TimedSight>& sights) {
   std::vector<const TimedSight*> misses;
   for (const TimedSight& one : sights) {
     if (one.sight.verdict == SightVerdict::kThere) {
       misses.clear();
-    } else if (one.sight.verdict == SightVerdict::kNotThere) {
+    } else if (one.sight.against > 0.0) {
       misses.push_back(&one);
     }
   }
   return misses;
 }
 
-/// How many of them were taken from places apart, in the order of time.
-int countApart(const std::vector<const TimedSight*>& misses, double apart_m) {
+/// Of these, from places apart, the strongest.
+std::vector<const TimedSight*> thoseApart(std::vector<const TimedSight*> misses, double apart_m) {
+  std::stable_sort(misses.begin(), misses.end(),
+                   [](const TimedSight* a, const TimedSight* b) { return a->sight.against > b->sight.against; });
   std::vector<const TimedSight*> apart;
   for (const TimedSight* const one : misses) {
     const bool is_apart = std::all_of(apart.begin(), apart.end(),
@@ -35,7 +39,14 @@ int countApart(const std::vector<const TimedSight*>& misses, double apart_m) {
       apart.push_back(one);
     }
   }
-  return static_cast<int>(apart.size());
+  return apart;
+}
+
+std::vector<const TimedSight*> sureOnes(const std::vector<const TimedSight*>& misses) {
+  std::vector<const TimedSight*> sure;
+  std::copy_if(misses.begin(), misses.end(), std::back_inserter(sure),
+               [](const TimedSight* one) { return one->sight.verdict == SightVerdict::kNotThere; });
+  return sure;
 }
 
 }  // namespace
@@ -47,20 +58,23 @@ ObjectReading testMissed(const std::vector<TimedSight>& sights, double apart_m, 
   reading.not_there = countOf(sights, SightVerdict::kNotThere);
   reading.hidden = countOf(sights, SightVerdict::kHidden);
   const std::vector<const TimedSight*> misses = missesOf(sights);
-  const int apart = countApart(misses, apart_m);
-  const double chance = std::pow(config.misread, apart);
-  if (apart >= config.min_views && chance <= config.max_chance) {
+  const std::vector<const TimedSight*> sure = sureOnes(misses);
+  const std::vector<const TimedSight*> apart = thoseApart(misses, apart_m);
+  const double words =
+      std::accumulate(apart.begin(), apart.end(), 0.0, [](double sum, const TimedSight* one) { return sum + one->sight.against; });
+  const double chance = std::pow(config.misread, words);
+  if (!sure.empty() && static_cast<int>(apart.size()) >= config.min_views && chance <= config.max_chance) {
     const TimedSight& best = **std::max_element(
-        misses.begin(), misses.end(), [](const TimedSight* a, const TimedSight* b) { return a->sight.through < b->sight.through; });
+        sure.begin(), sure.end(), [](const TimedSight* a, const TimedSight* b) { return a->sight.through < b->sight.through; });
     reading.status = WatchStatus::kMissed;
     reading.confidence = 1.0 - chance;
-    reading.stamp_ns = misses.front()->stamp_ns;
-    reading.frame = misses.front()->frame;
+    reading.stamp_ns = sure.front()->stamp_ns;
+    reading.frame = sure.front()->frame;
     reading.evidence_frame = best.frame;
     reading.crop = best.sight.crop;
-  } else if (misses.empty() && reading.there > 0) {
+  } else if (sure.empty() && reading.there > 0) {
     reading.status = WatchStatus::kThere;
-  } else if (misses.empty() && reading.hidden > 0) {
+  } else if (sure.empty() && reading.hidden > 0) {
     reading.status = WatchStatus::kHidden;
   }
   return reading;

@@ -47,14 +47,16 @@ struct ObjectReading {
   int not_there = 0;            ///< that look through it,
   int hidden = 0;               ///< and that have something before it
   double confidence = 0.0;      ///< of a miss: that it would have been seen, had it been there
-  std::int64_t stamp_ns = 0;    ///< of the first image that misses it,
+  std::int64_t stamp_ns = 0;    ///< of the first image that is sure to miss it,
   int frame = 0;                ///< that image,
   int evidence_frame = 0;       ///< the one that shows its empty place best,
   registration::PixelBox crop;  ///< and where that is in it
 };
 
-/// `sights`: in the order of time. Images that look through its place count from the last one on that had something there, and at least
-/// `min_views` of them must have been taken from `apart_m` apart: others repeat each other. `id` and `placement` are left to the caller.
+/// `sights`: in the order of time. Images that look through its place count from the last one on that had something there, each by its word
+/// against the object. At least `min_views` of them must have been taken from `apart_m` apart, since others repeat each other, and one
+/// must be sure by itself; the chance that all are wrong is `misread` to the power of the sum of their words. `id` and `placement` are left
+/// to the caller.
 [[nodiscard]] ObjectReading testMissed(const std::vector<TimedSight>& sights, double apart_m, const MissedTestConfig& config);
 
 }  // namespace oikos::tracking

@@ -15,6 +15,7 @@ namespace oikos::tracking {
 namespace {
 
 constexpr double kNear_m = 0.1;
+constexpr int kFewest = 15;                // pixels that tell: fewer may be an outline that is off
 constexpr double kMinCarrierFacing = 0.1;  // half of what an object needs: tops of furniture are seen flat
 
 Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by_m) {
@@ -205,10 +206,11 @@ void judge(bool can_be_pushed, const ObjectSightConfig& config, ObjectSight& sig
   }
   const std::optional<bool> is_carried = isCarrierInPlace(sight, can_be_pushed, config);
   sight.is_blind = !is_carried || share(sight.missing) > config.max_missing;
-  const bool tells = sight.telling >= config.min_telling_pixels && sight.telling >= config.min_telling * sight.core;
+  const bool tells = sight.telling >= kFewest && sight.telling >= config.min_telling * sight.core;
   const bool is_gone = sight.through >= config.min_through * sight.telling && share(sight.matter) <= config.max_matter;
   if (!sight.is_blind && *is_carried && tells && is_gone) {
-    sight.verdict = SightVerdict::kNotThere;
+    sight.against = std::min(1.0, static_cast<double>(sight.telling) / config.min_telling_pixels);
+    sight.verdict = sight.telling >= config.min_telling_pixels ? SightVerdict::kNotThere : SightVerdict::kUnclear;
   }
 }
 

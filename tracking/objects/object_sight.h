@@ -52,6 +52,7 @@ struct ObjectSight {
   int carrier_agrees = 0;       ///< where it should be
   int around = 0;               ///< readings of anything that the home has beside it,
   int around_agrees = 0;        ///< where that should be
+  double against = 0.0;         ///< its word against the object being there: 1 of kNotThere, less where too few pixels tell for that; or 0
   double sigma_m = 0.0;         ///< of the object's place as the camera has it, without depth noise
   registration::PixelBox crop;  ///< around its place
 };

@@ -117,8 +117,9 @@ void ObjectWatch::look(const camera::RgbdFrame& frame, const WatchFrame& seen) {
     if (const auto stand = scene_.stand(i)) {
       timed.sight = lookAt(scene_, i, *stand, view, config_.sight);
     }
-    if (object.can_be_pushed && timed.sight.verdict == SightVerdict::kNotThere && !edges[object.carrier_model].isInPlace(config_.sight)) {
+    if (object.can_be_pushed && timed.sight.against > 0.0 && !edges[object.carrier_model].isInPlace(config_.sight)) {
       timed.sight.verdict = SightVerdict::kUnclear;  // it may have gone with what carries it
+      timed.sight.against = 0.0;
     }
     auto& sights = tracks_[i].sights;
     sights.insert(std::upper_bound(sights.begin(), sights.end(), timed,

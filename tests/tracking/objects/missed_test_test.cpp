@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/enum_table_check.h"
 
 namespace oikos::tracking {
@@ -11,6 +13,7 @@ namespace {
 TimedSight sightOf(int frame, double camera_x_m, SightVerdict verdict) {
   TimedSight timed{frame, frame * 1'000'000'000LL, {camera_x_m, 0.0, 1.0}, {}};
   timed.sight.verdict = verdict;
+  timed.sight.against = verdict == SightVerdict::kNotThere ? 1.0 : 0.0;
   timed.sight.through = 100 + frame;
   timed.sight.crop = {frame, frame, frame + 10, frame + 10};
   return timed;
@@ -28,6 +31,31 @@ TEST(MissedTest, TwoImagesFromPlacesApartMissIt) {
   EXPECT_EQ(reading.evidence_frame, 7) << "more of it is seen through";
   EXPECT_EQ(reading.crop.left, 7);
   EXPECT_DOUBLE_EQ(reading.confidence, 1.0 - 0.03 * 0.03);
+}
+
+/// One in which too few pixels tell to be sure by itself.
+TimedSight hintOf(int frame, double camera_x_m, double against) {
+  TimedSight timed = sightOf(frame, camera_x_m, SightVerdict::kUnclear);
+  timed.sight.against = against;
+  return timed;
+}
+
+TEST(MissedTest, ASureImageAndHintsFromElsewhereMissIt) {
+  const ObjectReading reading = tested({hintOf(3, 0.0, 0.9), sightOf(7, 0.2, SightVerdict::kNotThere)});
+  EXPECT_EQ(reading.status, WatchStatus::kMissed);
+  EXPECT_EQ(reading.frame, 7) << "the first that is sure";
+  EXPECT_EQ(reading.evidence_frame, 7);
+  EXPECT_EQ(reading.not_there, 1);
+  EXPECT_NEAR(reading.confidence, 1.0 - std::pow(0.03, 1.9), 1e-12);
+  EXPECT_EQ(tested({hintOf(1, 0.0, 0.4), sightOf(2, 0.2, SightVerdict::kNotThere), hintOf(3, 0.4, 0.4)}).status, WatchStatus::kMissed);
+}
+
+TEST(MissedTest, HintsThatAreWeakFromOnePlaceOrAloneDoNot) {
+  const TimedSight sure = sightOf(1, 0.0, SightVerdict::kNotThere);
+  EXPECT_EQ(tested({sure, hintOf(2, 0.2, 0.5)}).status, WatchStatus::kUnclear);
+  EXPECT_EQ(tested({sure, hintOf(2, 0.05, 0.9)}).status, WatchStatus::kUnclear);
+  EXPECT_EQ(tested({hintOf(1, 0.0, 0.9), hintOf(2, 0.2, 0.9), hintOf(3, 0.4, 0.9)}).status, WatchStatus::kUnclear);
+  EXPECT_EQ(tested({hintOf(1, 0.0, 0.9), sure, sightOf(2, 0.2, SightVerdict::kThere)}).status, WatchStatus::kThere);
 }
 
 TEST(MissedTest, OneImageOrTwoFromOnePlaceDoNot) {
