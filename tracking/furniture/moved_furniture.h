@@ -15,7 +15,7 @@ namespace oikos::tracking {
 struct MovedFurnitureConfig {
   registration::ScanConfig scan{.step_px = 2, .normal_radius_px = 3};  ///< of images of 320×240
   /// Asks for less overlap than where one view stands alone, as views have to agree.
-  registration::SearchConfig search{.min_overlap = 0.68};
+  registration::SearchConfig search{.align = {}, .min_overlap = 0.68};
   int views = 6;                 ///< of a piece, from directions apart
   double view_apart_deg = 5.0;   ///< so far
   double best_distance_m = 2.0;  ///< views from about here come first
