@@ -88,28 +88,33 @@ std::vector<std::vector<double>> wordsOf(const std::vector<std::vector<double>>&
   return words;
 }
 
+/// The best spans up to an image.
+struct BestEnd {
+  double score = -std::numeric_limits<double>::infinity();
+  std::size_t begin_of_last = 0;
+};
+
 /// Where spans begin, the first at 0.
 std::vector<std::size_t> bestSplits(const std::vector<std::vector<double>>& log_chances, const std::vector<int>& views,
                                     const JointFusionConfig& config) {
   const std::vector<std::vector<double>> words = wordsOf(log_chances, views, config);
   const std::size_t count = words.size();
-  std::vector<double> best(count + 1, -std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> begin_of_last(count + 1, 0);
-  best[0] = config.change_cost;  // the first span follows no change
+  std::vector<BestEnd> best(count + 1);
+  best[0].score = config.change_cost;  // the first span follows no change
+  std::vector<double> sum;
   for (std::size_t begin = 0; begin < count; ++begin) {
-    std::vector<double> sum(words[begin].size(), 0.0);
+    sum.assign(words[begin].size(), 0.0);
     for (std::size_t end = begin + 1; end <= count; ++end) {
       std::transform(sum.begin(), sum.end(), words[end - 1].begin(), sum.begin(), std::plus<>());
-      const double score = best[begin] - config.change_cost + *std::max_element(sum.begin(), sum.end());
-      if (score > best[end]) {
-        best[end] = score;
-        begin_of_last[end] = begin;
+      const double score = best[begin].score - config.change_cost + *std::max_element(sum.begin(), sum.end());
+      if (score > best[end].score) {
+        best[end] = {score, begin};
       }
     }
   }
   std::vector<std::size_t> splits;
-  for (std::size_t end = count; end > 0; end = begin_of_last[end]) {
-    splits.insert(splits.begin(), begin_of_last[end]);
+  for (std::size_t end = count; end > 0; end = best[end].begin_of_last) {
+    splits.insert(splits.begin(), best[end].begin_of_last);
   }
   return splits;
 }
