@@ -68,10 +68,18 @@ std::string propertyOf(const Thing& thing, const std::string& name) {
                                                       : thing.room->type);
 }
 
-/// That the only found thing was not there when it was looked for; empty: it was not missed.
-std::string missedText(const AnswerContext& ctx) {
-  const std::optional<std::int64_t>& missed_ns = ctx.answer.found.front().missed_ns;
-  return missed_ns ? ", but was looked for there in vain " + ctx.clock().text(*missed_ns) : "";
+/// That a found thing was not there when it was looked for; empty: it was not missed.
+std::string missedText(const AnswerContext& ctx, const FoundThing& found) {
+  return found.missed_ns ? "looked for there in vain " + ctx.clock().text(*found.missed_ns) : "";
+}
+
+/// Of several things that were taken into the answer, where each is, and which of them was missed.
+std::string placesOf(const AnswerContext& ctx, const Things& things) {
+  return listOf(things, [&](const Thing& thing) {
+    const auto number = static_cast<std::size_t>(std::find(things.begin(), things.end(), &thing) - things.begin());
+    const std::string missed = missedText(ctx, ctx.answer.found.at(number));
+    return nameAndPlace(thing) + (missed.empty() ? "" : " (" + missed + ")");
+  });
 }
 
 /// Where the only found thing is likelier than where it was last; empty: nowhere.
@@ -94,14 +102,15 @@ void answerWhere(AnswerContext& ctx) {
   }
   ctx.take(*things);
   if (things->size() > 1) {
-    return ctx.say(std::to_string(things->size()) + " things fit: " + listOf(*things, nameAndPlace) + ".");
+    return ctx.say(std::to_string(things->size()) + " things fit: " + placesOf(ctx, *things) + ".");
   }
   const Thing& thing = *things->front();
   std::string sentence = theName(thing) + " " + ctx.be(thing) + " " + placeText(thing);
   if (thing.kind == ThingKind::kSmallObject && thing.small_object->last_seen_ns && !ctx.answer.at_ns) {
     sentence += ", last seen " + ctx.clock().text(*thing.small_object->last_seen_ns);
   }
-  ctx.say(sentence + missedText(ctx) + likelierText(ctx) + ".");
+  const std::string missed = missedText(ctx, ctx.answer.found.front());
+  ctx.say(sentence + (missed.empty() ? "" : ", but was " + missed) + likelierText(ctx) + ".");
 }
 
 void answerUsualPlace(AnswerContext& ctx) {

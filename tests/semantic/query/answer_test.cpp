@@ -240,6 +240,16 @@ TEST(Answer, WhatWasMissedIsSaidToHaveBeenLookedForInVain) {
   EXPECT_NE(answer.sentence.find("but was looked for there in vain"), std::string::npos) << answer.sentence;
   EXPECT_EQ(answer.found.at(0).missed_ns, missed.time_ns);
   EXPECT_FALSE(nlohmann::json::parse(toJson(answer))["found"][0]["missed"].is_null());
+  const Answer several = answerQuestion({&index, &history, kNow_ns, std::nullopt}, "where are the cups");
+  const std::string& both = several.sentence;
+  ASSERT_EQ(several.found.size(), 2U) << both;
+  EXPECT_EQ(both.find("in vain"), both.rfind("in vain")) << both;
+  EXPECT_NE(both.find("in vain", both.find("blue cup")), std::string::npos) << "not of the red one: " << both;
+  EXPECT_FALSE(several.found[0].missed_ns);
+  EXPECT_EQ(several.found[1].missed_ns, missed.time_ns);
+  const auto json = nlohmann::json::parse(toJson(several))["found"];
+  EXPECT_TRUE(json[0]["missed"].is_null());
+  EXPECT_FALSE(json[1]["missed"].is_null());
   const Answer changes = answerQuestion({&index, &history, kNow_ns, std::nullopt}, "what has changed today");
   ASSERT_EQ(changes.changes.size(), 1U) << changes.sentence;
   EXPECT_NE(changes.sentence.find("not where it was expected"), std::string::npos) << changes.sentence;
