@@ -20,7 +20,7 @@ struct KnobReaderConfig {
   double min_diameter_px = 16.0;        ///< nor smaller knobs
   double registration_sigma_m = 0.005;  ///< how far a knob is from where it is believed, each way
   int max_proposals = 3;                ///< of the detector, the best, compared with the knob's own render as the believed place is
-  double min_score = -1.5;              ///< of detector and fit together: less is no knob
+  double min_score = -1.0;              ///< of detector and fit together: less is no knob
   double max_unexplained = 0.75;        ///< of the picture's variation by the best template: more is no such knob
   double evidence_share = 0.1;          ///< independent pixels / pixels of the knob
   double max_evidence = 45.0;           ///< light, colours and shape are modelled no better than that, however large the picture
