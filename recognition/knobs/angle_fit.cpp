@@ -7,8 +7,6 @@
 #include <iterator>
 #include <opencv2/core.hpp>
 
-#include "core/base/error.h"
-
 namespace oikos::recognition {
 
 namespace {
@@ -245,9 +243,8 @@ struct FineSearch {
 /// A place and what it costs with the angle that is best there.
 struct Candidate {
   AngleFit fit;
-  double outside = 0.0;   ///< as a Place's
-  double residual = 1.0;  ///< mean square, of the strongest mixture
-  double cost = 0.0;      ///< costOf while places are refined, then the improbability
+  double outside = 0.0;  ///< as a Place's
+  double cost = 0.0;
 };
 
 /// From a place and an angle to the best place for that angle, a pixel away at most, and to all angles there.
@@ -256,8 +253,7 @@ Candidate refine(const FineSearch& search, const Eigen::Vector2d& centre_patch, 
   const ShiftedWindows windows(search.start, search.mixture, search.ring, {centre_patch, kReach_px});
   const Refined refined = refinePlace(windows, search.ring, angle, kReach_px);
   const double px_per_m = search.ring.shape().radius_px / search.start.radius_m;
-  Candidate candidate{fitThere(search.start, search.ring, centre_patch + refined.shift_px.cast<double>() / px_per_m), outside,
-                      refined.residual, 0.0};
+  Candidate candidate{fitThere(search.start, search.ring, centre_patch + refined.shift_px.cast<double>() / px_per_m), outside, 0.0};
   const double residual = std::sqrt(leastOf(candidate.fit) * (refined.residual + kFineOutside * outside));
   candidate.cost = costOf(residual, search.start, candidate.fit.centre_patch);
   return candidate;
@@ -280,43 +276,32 @@ void refineAgain(const FineSearch& search, std::vector<Candidate>& candidates) {
   }
 }
 
-/// What speaks against a place, comparable between all places of a picture: minus the logarithm of its probability. Factors are those of a
-/// conditional logit (McFadden 1974) that was fitted to which of the candidates is the true place, on simulated panels of the training
-/// families. Where the knob is not, its shades may be explained as well, but hardly by one angle more than by others.
-double improbability(const Candidate& candidate, const FitStart& start) {
-  std::vector<double> shares = candidate.fit.unexplained;
-  std::sort(shares.begin(), shares.end());
-  const double distinctness = std::log(shares[shares.size() / 2] / shares.front());
-  const double off_belief = candidate.fit.centre_patch.squaredNorm() / std::pow(start.belief_sigma_m, 2);
-  return 4.6 * std::log(shares.front()) + 2.6 * std::log(candidate.residual) - 6.3 * distinctness + 0.4 * off_belief;
-}
-
 /// Half a pixel aside of the best place.
 std::vector<Candidate> besides(const FitStart& start, const AngleRing& ring, const Candidate& best) {
   std::vector<Candidate> found;
   const double step_m = 0.5 * start.radius_m / ring.shape().radius_px;
   for (const Eigen::Vector2d& side : {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1)}) {
-    Candidate candidate{fitThere(start, ring, best.fit.centre_patch + step_m * side), best.outside, best.residual, 0.0};
-    candidate.cost = improbability(candidate, start);
+    Candidate candidate{fitThere(start, ring, best.fit.centre_patch + step_m * side), best.outside, 0.0};
+    candidate.cost = best.cost + 0.5 * kEvidence * std::log(leastOf(candidate.fit) / leastOf(best.fit));
     found.push_back(std::move(candidate));
   }
   return found;
 }
 
-}  // namespace
-
-AngleFit mergeFits(const std::vector<AngleFit>& fits) {
-  OIKOS_CHECK(!fits.empty());
-  const auto best = std::min_element(fits.begin(), fits.end(), [](const AngleFit& a, const AngleFit& b) { return a.cost < b.cost; });
-  AngleFit merged = *best;
-  for (const AngleFit& fit : fits) {
-    const double dearer = std::exp((fit.cost - best->cost) / (0.5 * kEvidence)) * leastOf(*best) / leastOf(fit);
+/// The best place; of each angle what the place that suits it best leaves unexplained, made worse by what that place costs more.
+AngleFit merge(const std::vector<Candidate>& candidates) {
+  const auto best = std::min_element(candidates.begin(), candidates.end(), isCheaper);
+  AngleFit merged = best->fit;
+  for (const Candidate& candidate : candidates) {
+    const double dearer = std::exp((candidate.cost - best->cost) / (0.5 * kEvidence)) * leastOf(best->fit) / leastOf(candidate.fit);
     for (std::size_t i = 0; i < merged.unexplained.size(); ++i) {
-      merged.unexplained[i] = std::min(merged.unexplained[i], dearer * fit.unexplained[i]);
+      merged.unexplained[i] = std::min(merged.unexplained[i], dearer * candidate.fit.unexplained[i]);
     }
   }
   return merged;
 }
+
+}  // namespace
 
 AngleFit fitAngle(const FitStart& start, const RingPair& rings) {
   const cv::Mat mixture = strongestMixture(start);
@@ -331,17 +316,9 @@ AngleFit fitAngle(const FitStart& start, const RingPair& rings) {
     candidates.push_back(refine(search, centre_patch, angle, place.outside));
   }
   refineAgain(search, candidates);
-  for (Candidate& candidate : candidates) {
-    candidate.cost = improbability(candidate, start);
-  }
   std::vector<Candidate> aside = besides(start, rings.fine, *std::min_element(candidates.begin(), candidates.end(), isCheaper));
   std::move(aside.begin(), aside.end(), std::back_inserter(candidates));
-  std::vector<AngleFit> fits;
-  for (Candidate& candidate : candidates) {
-    candidate.fit.cost = candidate.cost;
-    fits.push_back(std::move(candidate.fit));
-  }
-  return mergeFits(fits);
+  return merge(candidates);
 }
 
 }  // namespace oikos::recognition

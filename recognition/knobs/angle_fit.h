@@ -31,13 +31,9 @@ struct AngleFit {
   /// The share of the picture's variation that the template of this index leaves unexplained, 0 to 1, at the place that suits it best of
   /// those that are nearly as likely; AngleRing::bases says what an index means.
   std::vector<double> unexplained;
-  double cost = 0.0;  ///< minus the logarithm of how probable the place is, but for a constant that all fits to one picture share
 };
 
 /// Where the templates fit best, and how well each does there.
 [[nodiscard]] AngleFit fitAngle(const FitStart& start, const RingPair& rings);
-
-/// Several about one knob as one: the likeliest place, and of each angle the fit that suits it best, made worse by what that costs more.
-[[nodiscard]] AngleFit mergeFits(const std::vector<AngleFit>& fits);
 
 }  // namespace oikos::recognition

@@ -42,15 +42,6 @@ std::string obstacle(const FaceView& view, const KnobFace& face, const camera::P
   return camera.contains(projectPatch(view, camera, Eigen::Vector2d::Zero())) ? "" : "out of the picture";
 }
 
-/// Of the detector and the knob's own render together: a logistic regression on simulated panels, rounded; the default threshold was then
-/// held against looks of the training. What has no mark is explained by no template much better than by the median one.
-double scoreOf(const AngleFit& fit, double detector_score) {
-  std::vector<double> ordered = fit.unexplained;
-  std::sort(ordered.begin(), ordered.end());
-  const double distinctness = std::log(ordered[ordered.size() / 2] / ordered.front());
-  return 2.0 * detector_score - std::log(ordered.front()) + 2.0 * distinctness;
-}
-
 }  // namespace
 
 std::vector<std::string> KnobReaderConfig::validate() const {
@@ -119,23 +110,25 @@ std::vector<KnobDetection> KnobReader::propose(const FaceImage& image) const {
   return proposals;
 }
 
-std::vector<KnobReader::Found> KnobReader::fitProposals(const KnobPicture& picture, const FaceView& view) {
-  std::vector<Found> fitted;
+std::vector<KnobReader::Found> KnobReader::find(const KnobPicture& picture, const FaceView& view) {
+  std::vector<Found> found;
   for (const KnobDetection& proposal : propose({picture.color, picture.camera, view, face_.radius_m})) {
     Found one;
     one.detection = proposal;
     one.fit = fitAngle({picture.color, picture.camera, view, face_.radius_m, proposal.centre_patch, kFitReach * face_.radius_m,
                         config_.registration_sigma_m},
                        ringsOf(view.tilt_rad));
-    one.score = scoreOf(one.fit, proposal.score);
-    fitted.push_back(std::move(one));
+    std::vector<double> ordered = one.fit.unexplained;
+    std::sort(ordered.begin(), ordered.end());
+    one.unexplained = ordered.front();
+    one.distinctness = std::log(ordered[ordered.size() / 2] / ordered.front());
+    // A logistic regression on simulated panels, rounded; the default threshold was then held against looks of the training.
+    one.score = 2.0 * proposal.score - std::log(one.unexplained) + 2.0 * one.distinctness;
+    if (one.score < config_.min_score) {
+      continue;
+    }
+    found.push_back(std::move(one));
   }
-  return fitted;
-}
-
-std::vector<KnobReader::Found> KnobReader::find(const KnobPicture& picture, const FaceView& view) {
-  std::vector<Found> found = fitProposals(picture, view);
-  std::erase_if(found, [&](const Found& one) { return one.score < config_.min_score; });
   // Of several the one that is where it is believed to be.
   const auto distance = [&](const Found& one) {
     return 0.5 * one.fit.centre_patch.squaredNorm() / std::pow(config_.registration_sigma_m, 2);
@@ -153,23 +146,6 @@ std::vector<KnobReader::Found> KnobReader::find(const KnobPicture& picture, cons
   return apart;
 }
 
-/// One knob, wherever it was looked for: its true place may be that of a proposal that was not the best. Found there, the detector is
-/// asked once more: its own windows are half a cell apart.
-KnobReader::Found KnobReader::readPlace(const KnobPicture& picture, const FaceView& view) {
-  Found knob;
-  std::vector<AngleFit> fits;
-  for (const Found& one : fitProposals(picture, view)) {
-    fits.push_back(one.fit);
-    knob.score = fits.size() == 1 ? one.score : std::max(knob.score, one.score);
-  }
-  knob.fit = mergeFits(fits);
-  const Eigen::Vector2d& centre_patch = knob.fit.centre_patch;
-  knob.detection = {centre_patch, face_.radius_m,
-                    scoreWindow({picture.color, picture.camera, view, face_.radius_m}, centre_patch, detector_)};
-  knob.score = std::max(knob.score, scoreOf(knob.fit, knob.detection.score));
-  return knob;
-}
-
 KnobReading KnobReader::read(const KnobPicture& picture) {
   OIKOS_CHECK(picture.color.type() == CV_8UC3);
   KnobReading reading;
@@ -179,15 +155,16 @@ KnobReading KnobReader::read(const KnobPicture& picture) {
     return reading;
   }
   reading.diameter_px = 2.0 * face_.radius_m * view.px_per_m;
-  const Found found = readPlace(picture, view);
-  if (found.score < config_.min_score) {
+  const std::vector<Found> found = find(picture, view);
+  if (found.empty()) {
     reading.status = KnobStatus::kNotFound;
     reading.reason = "no knob where it should be";
     return reading;
   }
-  reading.detector_score = found.detection.score;
-  reading.centre_px = projectPatch(view, picture.camera, found.fit.centre_patch);
-  readAngle(found.fit, view, reading);
+  const AngleFit& fit = found.front().fit;
+  reading.detector_score = found.front().detection.score;
+  reading.centre_px = projectPatch(view, picture.camera, fit.centre_patch);
+  readAngle(fit, view, reading);
   reading.status = KnobStatus::kCannotTell;
   if (reading.unexplained > config_.max_unexplained) {
     reading.reason = "it does not look like its model";

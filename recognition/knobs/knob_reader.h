@@ -93,7 +93,9 @@ class KnobReader {
   struct Found {
     AngleFit fit;
     KnobDetection detection;
-    double score = 0.0;  ///< the detector's and the fit's together
+    double unexplained = 1.0;   ///< by the best template
+    double score = 0.0;         ///< the detector's and the fit's together
+    double distinctness = 0.0;  ///< logarithm of how much more the median template leaves unexplained: what has no mark has none
   };
   [[nodiscard]] std::vector<Found> find(const KnobPicture& picture, const FaceView& view);
 
@@ -103,8 +105,6 @@ class KnobReader {
  private:
   const RingPair& ringsOf(double tilt_rad);
   [[nodiscard]] std::vector<KnobDetection> propose(const FaceImage& image) const;
-  std::vector<Found> fitProposals(const KnobPicture& picture, const FaceView& view);
-  [[nodiscard]] Found readPlace(const KnobPicture& picture, const FaceView& view);
   void readAngle(const AngleFit& fit, const FaceView& view, KnobReading& reading) const;
 
   KnobDescription knob_;
