@@ -35,12 +35,13 @@ semantic::Home homeWith(const std::string& movability) {
 
 const Eigen::Isometry3d kBelieved = Eigen::Translation3d(0.3, 0.6, 0.0) * Eigen::AngleAxisd(90.0 * kDegree, Eigen::Vector3d::UnitZ());
 
-/// Images of the table at this place from three sides, halved in size as a revision's.
-std::vector<mapping::LocatedScan> scansOf(const Eigen::Isometry3d& T_map_table) {
+/// Images of the table at this place from several sides, halved in size as a revision's.
+std::vector<mapping::LocatedScan> scansOf(const Eigen::Isometry3d& T_map_table,
+                                          const std::vector<double>& off_axis_all_deg = {-60.0, 20.0, 55.0}) {
   std::mt19937_64 random(5);
   const model::ArticulatedModel real = test::trulyBuilt({"table"}, 0.005, random);
   std::vector<mapping::LocatedScan> scans;
-  for (const double off_axis_deg : {-60.0, 20.0, 55.0}) {
+  for (const double off_axis_deg : off_axis_all_deg) {
     test::FurnitureScene world;
     world.model = &real;
     world.joint_values.assign(real.joints.size(), 0.0);
@@ -77,6 +78,21 @@ TEST(MovedFurniture, AShiftedTableIsFoundWhereItStands) {
   const Eigen::Isometry3d T_map_table =
       kBelieved * Eigen::Translation3d(0.18, -0.12, 0.0) * Eigen::AngleAxisd(9.0 * kDegree, Eigen::Vector3d::UnitZ());
   expectFound(findMovedFurniture(homeWith("shiftable"), {}, scansOf(T_map_table), {}, {}), T_map_table);
+}
+
+/// Something stands before a part of it, so that no view tells it by itself, and the robot went past hardly to the side.
+TEST(MovedFurniture, TwoViewsNearToEachOtherFindATableThatIsPartlyHidden) {
+  const Eigen::Isometry3d T_map_table =
+      kBelieved * Eigen::Translation3d(0.18, -0.12, 0.0) * Eigen::AngleAxisd(9.0 * kDegree, Eigen::Vector3d::UnitZ());
+  std::vector<mapping::LocatedScan> scans = scansOf(T_map_table, {24.0, 32.0});
+  for (mapping::LocatedScan& scan : scans) {
+    scan.depth_m.colRange(135, 175).setTo(1.0F);
+  }
+  EXPECT_TRUE(findMovedFurniture(homeWith("shiftable"), {}, {scans.front()}, {}, {}).empty());
+  expectFound(findMovedFurniture(homeWith("shiftable"), {}, scans, {}, {}), T_map_table);
+  MovedFurnitureConfig far_apart;
+  far_apart.view_apart_deg = 12.0;
+  EXPECT_TRUE(findMovedFurniture(homeWith("shiftable"), {}, scans, {}, far_apart).empty());
 }
 
 TEST(MovedFurniture, ATableThatWasCarriedAwayIsFoundWhereSomethingIsNew) {
