@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "semantic/model/placement.h"
 
 namespace oikos::semantic {
 
 namespace {
+
+/// A thing as near as this to two doors may be behind either.
+constexpr double kEquallyNear_m = 0.05;
 
 JointReading readingOf(const Joint& joint) {
   return {joint.id.value, joint.type, joint.value};
@@ -72,22 +77,56 @@ void describePlace(const Thing& thing, FoundThing& found) {
   found.last_seen_ns = small.last_seen_ns;
 }
 
-}  // namespace
-
-std::vector<const Joint*> jointsInTheWay(const Thing& thing) {
+std::vector<const Joint*> jointsOfPart(const LargeObject& object, const PartId& part) {
   std::vector<const Joint*> joints;
-  if (thing.kind != ThingKind::kSmallObject || thing.object == nullptr || !thing.object->articulation ||
-      thing.small_object->relation != Relation::kIn) {
-    return joints;
-  }
-  // What lies in the body may be behind a door, not behind a drawer.
-  const bool in_base = thing.part == nullptr || thing.part->parent.value.empty();
-  for (const Joint& joint : thing.object->articulation->joints) {
-    const bool may_hide = in_base ? joint.type == JointType::kRevolute : joint.child == thing.part->id;
-    if (!isOpen(joint) && may_hide) {
+  for (const Joint& joint : object.articulation->joints) {
+    if (joint.child == part) {
       joints.push_back(&joint);
     }
   }
+  return joints;
+}
+
+/// The middle of a shut door, in its object: between its hinge and its handle, as far as they are known.
+Eigen::Vector3d middleOfShutDoor(const LargeObject& object, const Joint& door) {
+  const Eigen::Isometry3d T_object_door =
+      findPartInObject(*object.articulation, door.parent).value_or(Eigen::Isometry3d::Identity()) * door.T_parent_joint.toIsometry();
+  const auto& handles = object.articulation->handles;
+  const auto handle = std::find_if(handles.begin(), handles.end(), [&](const Handle& h) { return h.part == door.child; });
+  return handle == handles.end() ? Eigen::Vector3d(T_object_door.translation())
+                                 : T_object_door * Eigen::Vector3d(0.5 * handle->T_part_handle.toIsometry().translation());
+}
+
+/// What lies in the body may be behind a door, not behind a drawer: behind the door that is nearest, several where they are equally near.
+std::vector<const Joint*> doorsNearestTo(const Thing& thing) {
+  const Eigen::Vector3d at_object = thing.object->T_map_object.toIsometry().inverse() * thing.T_map_thing().translation();
+  std::vector<std::pair<double, const Joint*>> doors;  // how far off its middle is
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Joint& joint : thing.object->articulation->joints) {
+    if (joint.type == JointType::kRevolute) {
+      doors.emplace_back((middleOfShutDoor(*thing.object, joint) - at_object).norm(), &joint);
+      nearest_m = std::min(nearest_m, doors.back().first);
+    }
+  }
+  std::vector<const Joint*> nearest;
+  for (const auto& [away_m, door] : doors) {
+    if (away_m <= nearest_m + kEquallyNear_m) {
+      nearest.push_back(door);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<const Joint*> jointsInTheWay(const Thing& thing) {
+  if (thing.kind != ThingKind::kSmallObject || thing.object == nullptr || !thing.object->articulation ||
+      thing.small_object->relation != Relation::kIn) {
+    return {};
+  }
+  const bool in_base = thing.part == nullptr || thing.part->parent.value.empty();
+  std::vector<const Joint*> joints = in_base ? doorsNearestTo(thing) : jointsOfPart(*thing.object, thing.part->id);
+  std::erase_if(joints, [](const Joint* joint) { return isOpen(*joint); });
   return joints;
 }
 

@@ -69,7 +69,8 @@ struct FoundThing {
 [[nodiscard]] std::vector<const Joint*> jointsOf(const Thing& thing);
 /// Its own, those of its furniture's or part's parts, or itself.
 [[nodiscard]] std::vector<const Knob*> knobsOf(const Thing& thing);
-/// What stands between the robot and a small object: the shut joints of its drawer; in a body with doors, all that are shut.
+/// What stands between the robot and a small object: the shut joints of its drawer; in a body with doors, the nearest
+/// door (by the middle between its hinge and its handle) if it is shut, both of two that are equally near (5 cm).
 [[nodiscard]] std::vector<const Joint*> jointsInTheWay(const Thing& thing);
 /// Of the part that the joint moves.
 [[nodiscard]] std::vector<HandlePlace> handlesOf(const LargeObject& object, const Joint& joint);

@@ -159,13 +159,35 @@ TEST(Answer, SaysWhereToStandAndWhatToOpenFirst) {
   const FoundThing& cup = answer.found[0];
   EXPECT_EQ(cup.parent, "cupboard-body");
   EXPECT_EQ(cup.relation, Relation::kIn);
-  ASSERT_EQ(cup.joints_to_move.size(), 1U);  // the left one is open
-  EXPECT_EQ(cup.joints_to_move[0].id, "cupboard-right-hinge");
+  EXPECT_TRUE(cup.joints_to_move.empty());  // it is behind the left door, which is open
   ASSERT_EQ(cup.T_map_base.size(), 1U);
   // The cupboard stands at (3.2, 1.2), turned by 180 degrees; the robot 1.1 m before it, looking at it.
   EXPECT_LT((cup.T_map_base[0].translation() - Eigen::Vector3d(2.1, 1.2, 0.0)).norm(), 1e-12);
   EXPECT_LT((cup.T_map_base[0].linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
   EXPECT_LT((cup.T_map_thing.translation() - Eigen::Vector3d(3.2, 1.0, 0.8)).norm(), 1e-12);
+}
+
+/// The joints to move first if the cup lies in the papers' cupboard at `y_m` from its middle and both doors are shut.
+std::vector<std::string> doorsBefore(double y_m) {
+  Home home = laterHouse();
+  for (CopyOnWrite<LargeObject>& object : home.rooms[0].objects) {
+    if (object->id.value == "cupboard") {
+      object.edit().articulation->joints[0].value = 0.0;
+      object.edit().small_objects[0].T_parent_object.position_m.y() = y_m;
+    }
+  }
+  std::vector<std::string> joints;
+  for (const JointReading& joint : ask(home, "where is the blue cup").found.at(0).joints_to_move) {
+    joints.push_back(joint.id);
+  }
+  return joints;
+}
+
+TEST(Answer, TheDoorToOpenIsTheOneBeforeTheThing) {
+  using Joints = std::vector<std::string>;
+  EXPECT_EQ(doorsBefore(0.2), Joints{"cupboard-left-hinge"});
+  EXPECT_EQ(doorsBefore(-0.2), Joints{"cupboard-right-hinge"});
+  EXPECT_EQ(doorsBefore(0.0), (Joints{"cupboard-left-hinge", "cupboard-right-hinge"}));
 }
 
 TEST(Answer, TheDefaultParkingPoseIsTriedFirst) {
