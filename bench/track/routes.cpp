@@ -8,8 +8,8 @@
 
 namespace oikos::bench {
 
-const std::vector<Route>& routes() {
-  static const std::vector<Route> all = {
+std::vector<Route> routesWithin(const std::map<std::string, double>& free_uppers) {
+  std::vector<Route> all = {
       {"kitchen",
        {1.1, 1.6, 75.0},
        {"1.0 2.3 look -45", "1.4 2.3 yaw 178"},
@@ -49,6 +49,11 @@ const std::vector<Route>& routes() {
         {"crockery-right_door-joint", 110.0, true, 6.0},
         {"cupboard-door-joint", 110.0, true}}},
   };
+  for (Route& route : all) {
+    for (RouteJoint& joint : route.joints) {
+      joint.upper = std::min(joint.upper, free_uppers.at(joint.id));
+    }
+  }
   return all;
 }
 

@@ -24,7 +24,8 @@ struct Route {
   std::vector<RouteJoint> joints;
 };
 
-[[nodiscard]] const std::vector<Route>& routes();
+/// Through the demo apartment; no joint is opened farther than `free_uppers` has it (degrees or m).
+[[nodiscard]] std::vector<Route> routesWithin(const std::map<std::string, double>& free_uppers);
 
 /// Where a joint stands in truth, in the unit of files.
 struct Stand {

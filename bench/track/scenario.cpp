@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "bench/track/free_range.h"
 #include "bench/track/shown_parts.h"
 #include "core/base/config.h"
 #include "core/base/number_text.h"
@@ -70,7 +71,8 @@ Showing showingOf(const ShownParts& shown, const StateChange& change) {
 
 }  // namespace
 
-Scenario::Scenario(const ScenarioOptions& options) : options_(options), random_(options.seed) {
+Scenario::Scenario(const ScenarioOptions& options)
+    : options_(options), random_(options.seed), routes_(routesWithin(freeUppers(options.demo_home))) {
   fs::create_directories(home());
   fs::create_directories(deployed() / "scenes");
   for (const fs::path& folder : {home(), deployed()}) {
@@ -96,7 +98,7 @@ void Scenario::deploy() const {
 }
 
 void Scenario::run(int number, ScenarioTally& tally) {
-  const Route& route = routes()[static_cast<std::size_t>(number) % routes().size()];
+  const Route& route = routes_[static_cast<std::size_t>(number) % routes_.size()];
   const std::vector<StateChange> changes = drawChanges(route, states_, number, random_);
   const std::string name = "drive-" + std::to_string(number);
   simulate(name, scriptOf(number, route, changes));

@@ -79,6 +79,7 @@ class Scenario {
 
   ScenarioOptions options_;
   std::mt19937_64 random_;
+  std::vector<Route> routes_;
   States states_;
   std::map<std::string, std::string> settings_;  ///< of knobs
 };
