@@ -44,7 +44,9 @@ class Run {
   ArticulatedResult run(const Scan& whole_scan, const Surroundings& surroundings) {
     const PixelWindow window = windowOfAll(whole_scan.camera);
     if (window.isEmpty()) {
-      return result({.base_covariance = priorCovariance(config_.solver), .variances = {}, .shared_variances = {}, .counts = {}});
+      SolverReport nothing;
+      nothing.base_covariance = priorCovariance(config_.solver);
+      return result(nothing);
     }
     const Scan scan = cropped(whole_scan, window);
     const Scan thin = thinned(scan, config_.coarse_thinning);
@@ -211,8 +213,8 @@ class Run {
     result.status = statusOf(result.base_counts);
     for (const int link : movable()) {
       result.joints.push_back(estimateOf(link, report));
-      if (result.status == BaseStatus::kNotThere && result.joints.back().status == JointStatus::kFound) {
-        result.joints.back().status = JointStatus::kNotObservable;  // what hangs on nothing that is there
+      if (hangsInTheAir(result.status, link, report) && result.joints.back().status == JointStatus::kFound) {
+        result.joints.back().status = JointStatus::kNotObservable;
       }
     }
     result.joint_values = standing.joint_values;
@@ -234,6 +236,14 @@ class Run {
       return BaseStatus::kNotInView;
     }
     return counts.agreeing >= config_.min_base_share * speaking ? BaseStatus::kRegistered : BaseStatus::kNotThere;
+  }
+
+  /// The readings do not fit the base; or nobody has seen it, and to explain them, it was carried farther than it is likely to be off: it
+  /// is a wall that looks like an open door.
+  [[nodiscard]] bool hangsInTheAir(BaseStatus base, int link, const SolverReport& report) const {
+    const double max_off_sq = config_.max_unseen_off * config_.max_unseen_off;
+    return base == BaseStatus::kNotThere ||
+           (base == BaseStatus::kNotInView && !report.off_prior.empty() && report.off_prior[static_cast<std::size_t>(link)] > max_off_sq);
   }
 
   JointEstimate estimateOf(int link, const SolverReport& report) {
@@ -288,6 +298,7 @@ std::vector<std::string> ArticulatedConfig::validate() const {
       .require(profile_tempering > 0.0 && profile_tempering <= 1.0, "profile_tempering", profile_tempering, "must be > 0 and <= 1")
       .atLeast("min_base_pixels", min_base_pixels, 1)
       .between("min_base_share", min_base_share, 0.0, 1.0)
+      .greater("max_unseen_off", max_unseen_off, 0.0)
       .atLeast("most_rivals", most_rivals, 1)
       .between("rival_share", rival_share, 0.0, 1.0)
       .greater("unlimited_m", unlimited_m, 0.0)

@@ -51,8 +51,10 @@ struct ArticulatedConfig {
   double rival_share = 0.5;     ///< which is to say, within this share of its log likelihood
   int min_base_pixels = 20;     ///< of the scan: fewer readings do not tell where the base is, nor that it is not there
   double min_base_share = 0.3;  ///< of the readings of the base and behind it, those of it
-  double unlimited_m = 1.0;     ///< to both sides of the believed value, for a slide without limits
-  int threads = 1;              ///< of the renderer
+  double max_unseen_off =
+      3.0;                   ///< deviations that a base of which nothing is seen, and the joint on it, may be from where they are believed
+  double unlimited_m = 1.0;  ///< to both sides of the believed value, for a slide without limits
+  int threads = 1;           ///< of the renderer
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
@@ -69,6 +71,7 @@ struct ArticulatedConfig {
     visitor("rival_share", rival_share);
     visitor("min_base_pixels", min_base_pixels);
     visitor("min_base_share", min_base_share);
+    visitor("max_unseen_off", max_unseen_off);
     visitor("unlimited_m", unlimited_m);
     visitor("threads", threads);
   }

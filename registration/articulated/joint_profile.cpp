@@ -12,9 +12,8 @@ namespace oikos::registration {
 
 namespace {
 
-constexpr double kMinAlong = 0.05;      // a surface that is seen edge-on has its reading anywhere
-constexpr double kRefuted = 3.0;        // deviations
-constexpr double kAboutSigma_m = 0.02;  // of walls and furniture that nobody has registered
+constexpr double kMinAlong = 0.05;  // a surface that is seen edge-on has its reading anywhere
+constexpr double kRefuted = 3.0;    // deviations
 
 Eigen::Vector3d normalAt(const cv::Mat& normal_camera, int u, int v) {
   const auto& normal = normal_camera.at<cv::Vec3f>(v, u);
@@ -39,29 +38,6 @@ void forEachSeen(const WindowView& seen, const Scan& scan, const Visit& visit) {
 
 }  // namespace
 
-Surroundings cropped(const Surroundings& surroundings, const PixelBox& box) {
-  if (surroundings.isEmpty()) {
-    return {};
-  }
-  const cv::Rect part(cv::Point(box.left, box.top), cv::Point(box.right, box.bottom));
-  return {surroundings.depth_m(part), surroundings.normal_camera(part)};
-}
-
-Surroundings thinned(const Surroundings& surroundings, int factor) {
-  if (surroundings.isEmpty()) {
-    return {};
-  }
-  const cv::Size size((surroundings.depth_m.cols + factor - 1) / factor, (surroundings.depth_m.rows + factor - 1) / factor);
-  Surroundings thin{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_32FC3)};
-  for (int v = 0; v < size.height; ++v) {
-    for (int u = 0; u < size.width; ++u) {
-      thin.depth_m.at<float>(v, u) = surroundings.depth_m.at<float>(factor * v, factor * u);
-      thin.normal_camera.at<cv::Vec3f>(v, u) = surroundings.normal_camera.at<cv::Vec3f>(factor * v, factor * u);
-    }
-  }
-  return thin;
-}
-
 JointProfiler::JointProfiler(const JointTree& tree, LinkLayers& layers, const Scan& scan, const Eigen::Isometry3d& T_map_camera,
                              const PixelMixture& mixture, const Surroundings& surroundings)
     : tree_(tree), layers_(layers), scan_(scan), T_camera_map_(T_map_camera.inverse()), mixture_(mixture) {
@@ -82,12 +58,13 @@ void JointProfiler::explainBy(const Surroundings& surroundings) {
         continue;
       }
       const auto reading_m = static_cast<double>(seen.point_camera.z());
+      const auto sigma_m = static_cast<double>(surroundings.sigma_m.at<float>(v, u));
       const Eigen::Vector3d normal_camera = normalAt(surroundings.normal_camera, u, v);
       const Eigen::Vector3d ray = seen.point_camera.cast<double>() / reading_m;
       const double along = std::max(kMinAlong, -normal_camera.dot(ray));
       ModelledPixel surface;
       surface.depth_m = depth_m;
-      surface.sigma_m = std::hypot(residualSigma_m(reading_m, along / ray.norm()), kAboutSigma_m) / along;
+      surface.sigma_m = std::hypot(residualSigma_m(reading_m, along / ray.norm()), sigma_m) / along;
       surface.faces = seen.normal_camera.isZero() || seen.normal_camera.cast<double>().dot(normal_camera) > mixture_.minNormalCos();
       if (reading_m - depth_m < kRefuted * surface.sigma_m) {  // else it is seen through: it is not there
         about_[pixel] = {depth_m, std::max(mixture_.logOfSurface(reading_m, surface), mixture_.logOfNothing())};

@@ -4,12 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <limits>
-#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "registration/articulated/joint_tree.h"
 #include "registration/articulated/link_layers.h"
 #include "registration/articulated/pixel_mixture.h"
+#include "registration/articulated/surroundings.h"
 #include "registration/scan.h"
 
 namespace oikos::registration {
@@ -19,19 +19,6 @@ struct Standing {
   Eigen::Isometry3d T_map_model = Eigen::Isometry3d::Identity();
   std::vector<double> joint_values;  ///< one a joint of the model
 };
-
-/// What stands about the model and is known, as the scan's camera sees it without the model: `depth_m` (CV_32FC1, NaN: nothing known) and
-/// `normal_camera` (CV_32FC3) of the scan's size. A wall explains its readings, and no door need lie before it to do so; nothing is seen of
-/// what lies behind it. Where a reading lies behind one of these surfaces, it is not there.
-struct Surroundings {
-  cv::Mat depth_m;
-  cv::Mat normal_camera;
-
-  [[nodiscard]] bool isEmpty() const { return depth_m.empty(); }
-};
-[[nodiscard]] Surroundings cropped(const Surroundings& surroundings, const PixelBox& box);
-/// Every `factor`-th pixel.
-[[nodiscard]] Surroundings thinned(const Surroundings& surroundings, int factor);
 
 /// What one value of a joint does with the readings.
 struct ValueScore {

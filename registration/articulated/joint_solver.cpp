@@ -122,15 +122,30 @@ std::vector<char> JointSolver::countingLinks(const Freedom& freedom) const {
   return counts;
 }
 
-/// The base from where it is believed, and each joint from where the model has it.
-void JointSolver::addPriors(const JointEstimates& estimates, JointEquations& equations) const {
+geometry::Vector6d JointSolver::baseOff(const JointEstimates& estimates) const {
   const Eigen::Isometry3d& T_map_model = estimates.standing.T_map_model;
   geometry::Vector6d off;
   off << T_map_model * pivot_model_ - T_map_prior_ * pivot_model_,
       geometry::logSo3(T_map_model.linear() * T_map_prior_.linear().transpose());
+  return off;
+}
+
+std::vector<double> JointSolver::offPrior(const JointEstimates& estimates) const {
+  const double of_base = baseOff(estimates).cwiseQuotient(sigmasOf(config_)).squaredNorm();
+  std::vector<double> off(tree_.links().size(), of_base);
+  for (std::size_t link = 1; link < off.size(); ++link) {
+    for (const int mover : tree_.links()[link].chain) {
+      off[link] += (estimates.shift_map[static_cast<std::size_t>(mover)] / config_.axis_sigma_m).squaredNorm();
+    }
+  }
+  return off;
+}
+
+/// The base from where it is believed, and each joint from where the model has it.
+void JointSolver::addPriors(const JointEstimates& estimates, JointEquations& equations) const {
   const geometry::Vector6d information = sigmasOf(config_).cwiseAbs2().cwiseInverse();
   equations.H.diagonal().head<kBaseSize>() += information;
-  equations.g.head<kBaseSize>() += information.cwiseProduct(off);
+  equations.g.head<kBaseSize>() += information.cwiseProduct(baseOff(estimates));
   const double of_axis = 1.0 / (config_.axis_sigma_m * config_.axis_sigma_m);
   for (std::size_t link = 1; link < tree_.links().size(); ++link) {
     const int first = firstOf(static_cast<int>(link)) + 1;
@@ -222,6 +237,7 @@ SolverReport JointSolver::report(const JointEstimates& estimates, const Freedom&
   SolverReport report;
   report.counts = equations.counts;
   report.rms_m = equations.agreeing > 0 ? std::sqrt(equations.squares_m / equations.agreeing) : 0.0;
+  report.off_prior = offPrior(estimates);
   report.variances.assign(tree_.links().size(), 0.0);
   report.shared_variances.assign(tree_.links().size(), 0.0);
   for (std::size_t i = 0; i < freedom.links.size(); ++i) {

@@ -60,6 +60,8 @@ struct SolverReport {
   std::vector<double> variances;                                    ///< by link: of its joint's value (rad^2 or m^2); the base's is 0
   std::vector<double> shared_variances;                             ///< of these, what another frame would not change: axis, distortion
   std::vector<LinkCounts> counts;                                   ///< by link
+  std::vector<double> off_prior;                                    ///< by link: of the base and of the joints that move it, from where
+                                                                    ///< they are believed; a sum of squared deviations
   double rms_m = 0.0;                                               ///< of what agrees, from the surfaces
 };
 
@@ -89,6 +91,8 @@ class JointSolver {
   [[nodiscard]] std::vector<JointAxis> axesOf(const JointEstimates& estimates) const;
   [[nodiscard]] JointEquations look(const JointEstimates& estimates, const Freedom& freedom, double width_m);
   [[nodiscard]] std::vector<char> countingLinks(const Freedom& freedom) const;
+  [[nodiscard]] geometry::Vector6d baseOff(const JointEstimates& estimates) const;
+  [[nodiscard]] std::vector<double> offPrior(const JointEstimates& estimates) const;
   void addPriors(const JointEstimates& estimates, JointEquations& equations) const;
   [[nodiscard]] Eigen::VectorXd stepOf(const JointEquations& equations, const JointEstimates& estimates, const Freedom& freedom) const;
   void apply(const Eigen::VectorXd& step, JointEstimates& estimates) const;

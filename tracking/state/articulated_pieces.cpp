@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/nearest_name.h"
+#include "registration/articulated/joint_tree.h"
 #include "semantic/model/home_models.h"
 #include "tracking/furniture/changed_pieces.h"
 
@@ -16,6 +17,16 @@ bool hasStates(const semantic::LargeObject& object) {
 
 bool isTracked(const semantic::LargeObject& object) {
   return object.movability != semantic::Movability::kMovable && hasStates(object);
+}
+
+Eigen::AlignedBox3d bodyBoxOf(model::ArticulatedModel model, const std::vector<double>& joint_values) {
+  const registration::JointTree tree(model);
+  for (std::size_t part = 0; part < model.parts.size(); ++part) {
+    if (tree.linkOf(static_cast<int>(part)) != 0) {
+      model.parts[part].mesh_part = nullptr;
+    }
+  }
+  return boxOf(model, {joint_values});
 }
 
 [[noreturn]] void refuse(const semantic::Home& home, const std::string& only) {
@@ -52,6 +63,7 @@ std::vector<ArticulatedPiece> articulatedPieces(const semantic::Home& home, cons
       piece.model = maker.make(object);
       piece.joints = object.articulation->joints;
       piece.believed = {object.T_map_object.toIsometry(), semantic::jointValues(object)};
+      piece.body_model = bodyBoxOf(piece.model, piece.believed.joint_values);
       piece.box_model = boxOf(piece.model, {piece.believed.joint_values});
       piece.reach_model = reachBoxOf(piece.model, piece.believed.joint_values);
       pieces.push_back(std::move(piece));

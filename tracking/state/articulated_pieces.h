@@ -19,7 +19,8 @@ struct ArticulatedPiece {
   model::ArticulatedModel model;        ///< joint i is joint i of the object; knobs come behind
   std::vector<semantic::Joint> joints;  ///< the object's
   registration::Standing believed;
-  Eigen::AlignedBox3d box_model;    ///< around it as it is believed
+  Eigen::AlignedBox3d body_model;   ///< around what no joint moves
+  Eigen::AlignedBox3d box_model;    ///< around all of it as it is believed
   Eigen::AlignedBox3d reach_model;  ///< and with its joints anywhere
 };
 

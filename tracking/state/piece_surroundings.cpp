@@ -68,7 +68,7 @@ void HomeSurroundings::addShell(const semantic::Room& room) {
 
 render::Scene HomeSurroundings::sceneWithout(const ArticulatedPiece& piece) const {
   render::Scene scene;
-  Eigen::AlignedBox3d within = piece.box_model;
+  Eigen::AlignedBox3d within = piece.body_model;
   within.min().array() += kInWall_m;
   within.max().array() -= kInWall_m;
   const Eigen::AlignedBox3d reach_map = [&] {
@@ -90,14 +90,15 @@ render::Scene HomeSurroundings::sceneWithout(const ArticulatedPiece& piece) cons
   return scene;
 }
 
-registration::Surroundings viewOf(const render::Scene& scene, const camera::PinholeCamera& camera, const Eigen::Isometry3d& T_map_camera) {
+registration::Surroundings surroundingsIn(const render::Scene& scene, const registration::Scan& scan,
+                                          const Eigen::Isometry3d& T_map_camera) {
   if (scene.modelCount() == 0) {
     return {};
   }
   render::ViewConfig config;
   config.with_normals = true;
-  render::View view = render::renderView(scene, render::CameraRays(camera), {T_map_camera, {}}, config);
-  return {view.depth_m, view.normal_camera};
+  config.with_parts = true;
+  return registration::surroundingsOf(render::renderView(scene, render::CameraRays(scan.camera), {T_map_camera, {}}, config), scan);
 }
 
 }  // namespace oikos::tracking

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/camera/pinhole_camera.h"
 #include "core/model/articulated_model.h"
 #include "core/render/scene.h"
-#include "registration/articulated/articulated_registration.h"
+#include "registration/articulated/surroundings.h"
 #include "semantic/model/home.h"
 #include "tracking/state/articulated_pieces.h"
 
@@ -40,8 +39,8 @@ class HomeSurroundings {
   std::vector<Thing> things_;
 };
 
-/// What the camera sees of a scene, as a registration takes it.
-[[nodiscard]] registration::Surroundings viewOf(const render::Scene& scene, const camera::PinholeCamera& camera,
-                                                const Eigen::Isometry3d& T_map_camera);
+/// What the scan's camera sees of a scene, each surface where the scan has it.
+[[nodiscard]] registration::Surroundings surroundingsIn(const render::Scene& scene, const registration::Scan& scan,
+                                                        const Eigen::Isometry3d& T_map_camera);
 
 }  // namespace oikos::tracking

@@ -188,7 +188,7 @@ void StateReader::registerIn(std::size_t piece, const SeenFrame& frame, const re
     track.handles = std::make_unique<PieceHandles>(of.model, config_.handles);
   }
   registration::ImageContext context = contextOf(frame, of);
-  context.surroundings = viewOf(*track.about, scan.camera, frame.T_map_camera);
+  context.surroundings = surroundingsIn(*track.about, scan, frame.T_map_camera);
   registration::ArticulatedResult result = track.registration->run(scan, frame.T_map_camera, of.believed, context);
   track.handles->add({depth_m, camera_, frame.T_map_camera}, result);
   const int index = static_cast<int>(&frame - frames_.data());

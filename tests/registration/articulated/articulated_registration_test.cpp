@@ -380,6 +380,7 @@ TEST(ArticulatedRegistration, ConfigurationRules) {
                                              {"most_rivals", "0", "must be >= 1"},
                                              {"rival_share", "2", "must be from 0 to 1"},
                                              {"min_base_pixels", "0", "must be >= 1"},
+                                             {"max_unseen_off", "0", "must be > 0"},
                                              {"min_base_share", "2", "must be from 0 to 1"},
                                              {"unlimited_m", "0", "must be > 0"},
                                              {"threads", "0", "must be >= 1"}});

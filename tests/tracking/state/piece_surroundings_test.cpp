@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "semantic/model/home_models.h"
+#include "tracking/furniture/changed_pieces.h"
 
 namespace oikos::tracking {
 namespace {
@@ -40,7 +41,8 @@ double depthTowards(const render::Scene& scene, double yaw_deg) {
   T_map_camera.linear().col(1) = -Eigen::Vector3d::UnitZ();
   T_map_camera.linear().col(0) = T_map_camera.linear().col(1).cross(T_map_camera.linear().col(2));
   T_map_camera.translation().z() = 0.5;
-  const registration::Surroundings view = viewOf(scene, camera, T_map_camera);
+  const registration::Scan nothing{camera, std::vector<registration::ScanPoint>(static_cast<std::size_t>(camera.width * camera.height))};
+  const registration::Surroundings view = surroundingsIn(scene, nothing, T_map_camera);
   return static_cast<double>(view.depth_m.at<float>(15, 20));
 }
 
@@ -57,6 +59,20 @@ TEST(HomeSurroundings, ADoorHasNoWallInItsOpening) {
   const semantic::Home home = homeOf();
   const HomeSurroundings surroundings(home, {});
   EXPECT_TRUE(std::isnan(depthTowards(surroundings.sceneWithout(articulatedPieces(home, {})[2]), 0.0)));
+}
+
+TEST(HomeSurroundings, ADoorThatIsThoughtToStandInAWallTakesNothingAwayFromIt) {
+  semantic::Home home = homeOf();
+  home.rooms[0].objects.pop_back();  // no door in that wall
+  semantic::LargeObject& cupboard = home.rooms[0].objects[0].edit();
+  const double half_m = 0.5 * boxOf(articulatedPieces(home, {})[0].model, {semantic::jointValues(cupboard)}).sizes().y();
+  cupboard.T_map_object.position_m.x() = 2.95 - half_m;  // its right side stands before the wall x = 3
+  for (semantic::Joint& joint : cupboard.articulation->joints) {
+    joint.value = joint.upper;
+  }
+  const ArticulatedPiece piece = articulatedPieces(home, {})[0];
+  ASSERT_GT((piece.believed.T_map_model * piece.box_model.corner(Eigen::AlignedBox3d::TopRightFloor)).x(), 3.05);
+  EXPECT_NEAR(depthTowards(HomeSurroundings(home, {}).sceneWithout(piece), 0.0), 3.0, 1e-5);
 }
 
 }  // namespace
