@@ -170,14 +170,12 @@ TEST(Answer, SaysWhereToStandAndWhatToOpenFirst) {
 /// The joints to move first if the cup lies in the papers' cupboard at `y_m` from its middle and both doors are shut.
 std::vector<std::string> doorsBefore(double y_m) {
   Home home = laterHouse();
-  for (CopyOnWrite<LargeObject>& object : home.rooms[0].objects) {
-    if (object->id.value == "cupboard") {
-      object.edit().articulation->joints[0].value = 0.0;
-      object.edit().small_objects[0].T_parent_object.position_m.y() = y_m;
-    }
-  }
+  LargeObject& cupboard = home.rooms[0].objects[1].edit();
+  cupboard.articulation->joints[0].value = 0.0;
+  cupboard.small_objects.back().T_parent_object.position_m.y() = y_m;
   std::vector<std::string> joints;
-  for (const JointReading& joint : ask(home, "where is the blue cup").found.at(0).joints_to_move) {
+  const Answer answer = ask(home, "where is the blue cup");
+  for (const JointReading& joint : answer.found.at(0).joints_to_move) {
     joints.push_back(joint.id);
   }
   return joints;
