@@ -63,16 +63,15 @@ TEST(HomeSurroundings, ADoorHasNoWallInItsOpening) {
 
 TEST(HomeSurroundings, ADoorThatIsThoughtToStandInAWallTakesNothingAwayFromIt) {
   semantic::Home home = homeOf();
-  home.rooms[0].objects.pop_back();  // no door in that wall
   semantic::LargeObject& cupboard = home.rooms[0].objects[0].edit();
   const double half_m = 0.5 * boxOf(articulatedPieces(home, {})[0].model, {semantic::jointValues(cupboard)}).sizes().y();
-  cupboard.T_map_object.position_m.x() = 2.95 - half_m;  // its right side stands before the wall x = 3
+  cupboard.T_map_object.position_m.x() = half_m - 2.95;  // its left side, with the hinge, stands before the wall x = -3
   for (semantic::Joint& joint : cupboard.articulation->joints) {
     joint.value = joint.upper;
   }
   const ArticulatedPiece piece = articulatedPieces(home, {})[0];
-  ASSERT_GT((piece.believed.T_map_model * piece.box_model.corner(Eigen::AlignedBox3d::TopRightFloor)).x(), 3.05);
-  EXPECT_NEAR(depthTowards(HomeSurroundings(home, {}).sceneWithout(piece), 0.0), 3.0, 1e-5);
+  ASSERT_LT((piece.believed.T_map_model * piece.box_model.min()).x(), -3.05);
+  EXPECT_NEAR(depthTowards(HomeSurroundings(home, {}).sceneWithout(piece), 180.0), 3.0, 1e-5);
 }
 
 }  // namespace
