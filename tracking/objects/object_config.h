@@ -55,7 +55,7 @@ struct ObjectSightConfig {
   double max_missing = 0.65;       ///< share without a reading
   double max_hidden = 0.4;         ///< share with something before it
   double min_telling = 0.5;        ///< share of its core that can tell the object from what is behind it,
-  int min_telling_pixels = 50;     ///< and number
+  int min_telling_pixels = 35;     ///< and number
   double min_through = 0.85;       ///< of the pixels that tell: readings behind it. Half an object is an object
   double max_matter = 0.15;        ///< readings about the place that nothing else explains
   double min_matter = 0.35;        ///< from here on there is something
@@ -94,7 +94,7 @@ struct ObjectSightConfig {
 struct MissedTestConfig {
   int min_views = 2;          ///< from different places that do not see it
   double misread = 0.03;      ///< chance, at least, that an image does not see an object that is there
-  double max_chance = 0.002;  ///< that all of them are wrong
+  double max_chance = 0.01;   ///< that all of them are wrong
 
   template <class Visitor>
   void visit(Visitor&& visitor) {

@@ -52,7 +52,7 @@ TEST(MissedTest, ASureImageAndHintsFromElsewhereMissIt) {
 
 TEST(MissedTest, HintsThatAreWeakFromOnePlaceOrAloneDoNot) {
   const TimedSight sure = sightOf(1, 0.0, SightVerdict::kNotThere);
-  EXPECT_EQ(tested({sure, hintOf(2, 0.2, 0.5)}).status, WatchStatus::kUnclear);
+  EXPECT_EQ(tested({sure, hintOf(2, 0.2, 0.25)}).status, WatchStatus::kUnclear);
   EXPECT_EQ(tested({sure, hintOf(2, 0.05, 0.9)}).status, WatchStatus::kUnclear);
   EXPECT_EQ(tested({hintOf(1, 0.0, 0.9), hintOf(2, 0.2, 0.9), hintOf(3, 0.4, 0.9)}).status, WatchStatus::kUnclear);
   EXPECT_EQ(tested({hintOf(1, 0.0, 0.9), sure, sightOf(2, 0.2, SightVerdict::kThere)}).status, WatchStatus::kThere);
