@@ -67,6 +67,18 @@ struct KnobWatch::Watched {
     const auto found = std::find_if(sightings.begin(), sightings.end(), [&](const KnobSighting& one) { return one.frame == frame; });
     return indices[static_cast<std::size_t>(found - sightings.begin())];
   }
+  /// Indices of the pictures in a stay that have read another state.
+  [[nodiscard]] std::vector<int> dissenters(const KnobStay& stay) const {
+    std::vector<int> found;
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+      const KnobSighting& one = sightings[i];
+      const bool is_within = one.frame >= stay.first_frame && one.frame <= stay.last_frame;
+      if (is_within && one.reading.status == recognition::KnobStatus::kRead && one.reading.state != stay.state) {
+        found.push_back(indices[i]);
+      }
+    }
+    return found;
+  }
   void insert(int index, KnobSighting sighting) {
     const auto place = std::lower_bound(indices.begin(), indices.end(), index) - indices.begin();
     indices.insert(indices.begin() + place, index);
@@ -155,7 +167,8 @@ std::set<int> KnobWatch::firstOf(int knob) const {
   return {chosen.begin(), chosen.end()};
 }
 
-/// Between pictures that disagree, nearer to the moment; and beside those that are too few to tell what they show.
+/// Between pictures that disagree, nearer to the moment; and beside those that are too few to tell what they show, or alone with another
+/// state than their stay's: misread, or the first of a stay that one picture is not enough for.
 std::set<int> KnobWatch::furtherOf(int number) const {
   const Watched& knob = knobs_[static_cast<std::size_t>(number)];
   const std::vector<KnobStay> stays = fuseSightings(knob.sightings, knob.knob.states.size(), config_.test);
@@ -171,6 +184,9 @@ std::set<int> KnobWatch::furtherOf(int number) const {
     }
     if (stays[i].found > 0 && !stays[i].isTold(config_.test)) {
       want(frameBeside(frames_, number, knob.indices, knob.indexOf(stays[i].best_frame)));
+    }
+    for (const int index : knob.dissenters(stays[i])) {
+      want(frameBeside(frames_, number, knob.indices, index));
     }
   }
   return further;

@@ -175,6 +175,17 @@ TEST(KnobWatch, LooksOnceMoreWhereOnePictureIsAlone) {
   }
 }
 
+/// Of the first pictures one alone shows what it was turned to, which is less than turning costs.
+TEST(KnobWatch, LooksBesideThePictureThatDissents) {
+  Drive drive;
+  drive.turned_at = kFrames - 4;
+  const std::vector<KnobStay> stays = drive.read().at(kTurned).stays;
+  ASSERT_EQ(stays.size(), 2U);
+  EXPECT_EQ(stays.back().state, drive.state);
+  EXPECT_EQ(stays.back().first_frame, drive.turned_at);
+  EXPECT_TRUE(stays.back().isTold({}));
+}
+
 TEST(KnobWatch, WhatIsHiddenOrFarIsNotRead) {
   Drive hidden;
   hidden.is_hidden = true;
