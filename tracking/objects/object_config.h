@@ -92,9 +92,9 @@ struct ObjectSightConfig {
 
 /// The hypothesis test over images. H0: it is there.
 struct MissedTestConfig {
-  int min_views = 2;          ///< from different places that do not see it
-  double misread = 0.03;      ///< chance, at least, that an image does not see an object that is there
-  double max_chance = 0.01;   ///< that all of them are wrong
+  int min_views = 2;         ///< from different places that do not see it
+  double misread = 0.03;     ///< chance, at least, that an image does not see an object that is there
+  double max_chance = 0.01;  ///< that all of them are wrong
 
   template <class Visitor>
   void visit(Visitor&& visitor) {
