@@ -35,7 +35,8 @@ struct Alarm {
 struct DetectionTrial {
   int knobs = 0;                 ///< that are wholly in the picture
   int regions = 0;               ///< that were searched
-  double ms = 0.0;               ///< of processor time, for all regions
+  double ms = 0.0;               ///< of processor time, for all regions, confirmation included
+  double alone_ms = 0.0;         ///< of the detector alone
   std::vector<Alarm> alone;      ///< by the detector alone, apart from each other
   std::vector<Alarm> confirmed;  ///< confirmed by the knob's own render; empty without confirmation
 };

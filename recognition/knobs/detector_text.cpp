@@ -81,6 +81,7 @@ DetectorModel parseDetector(std::string_view text, const std::string& where) {
 }
 
 std::string writeDetector(const DetectorModel& model) {
+  OIKOS_CHECK(static_cast<int>(model.weights.size()) == kDescriptorSize);
   std::string text = std::string(kIdentifier) + " " + std::string(kVersion) + "\nweights " + std::to_string(model.weights.size()) +
                      "\nbias " + base::toFixedText(model.bias, kDecimals) + "\nthreshold " + base::toFixedText(model.threshold, kDecimals) +
                      "\n";

@@ -48,10 +48,13 @@ void detectInLayer(const FaceImage& image, double radius_m, const DetectorModel&
   const int side = kWindow_px + 2 * kMargin_px + 2 * reach_px;
   grid.size = {side, side};
   grid.origin_px = Eigen::Vector2d::Constant((side - 1) / 2.0);
-  const Gradients gradients = differentiate(samplePatch(image.color, image.camera, image.view, grid));
-  for (int phase = 0; phase < 4; ++phase) {
-    const cv::Point start(phase % 2 * kPhase_px, phase / 2 * kPhase_px);
-    const HogCells cells = normaliseByBlocks(histogramCells(gradients, kDetectorHog, start));
+  static const std::vector<cv::Point> kStarts = {{0, 0}, {kPhase_px, 0}, {0, kPhase_px}, {kPhase_px, kPhase_px}};
+  const std::vector<HogCells> phases = model.describe(samplePatch(image.color, image.camera, image.view, grid), kStarts);
+  OIKOS_CHECK(phases.size() == kStarts.size());
+  for (std::size_t phase = 0; phase < phases.size(); ++phase) {
+    const cv::Point& start = kStarts[phase];
+    const HogCells& cells = phases[phase];
+    OIKOS_CHECK(static_cast<int>(model.weights.size()) == kWindowCells * kWindowCells * cells.orientations);
     for (int row = 0; row + kWindowCells <= cells.rows; ++row) {
       for (int column = 0; column + kWindowCells <= cells.columns; ++column) {
         const double score = scoreOf(cells, column, row, model);
@@ -90,8 +93,16 @@ std::vector<std::string> DetectorConfig::validate() const {
       .messages();
 }
 
+std::vector<HogCells> describeByHog(const cv::Mat& patch, const std::vector<cv::Point>& starts) {
+  const Gradients gradients = differentiate(patch);
+  std::vector<HogCells> cells;
+  for (const cv::Point& start : starts) {
+    cells.push_back(normaliseByBlocks(histogramCells(gradients, kDetectorHog, start)));
+  }
+  return cells;
+}
+
 std::vector<KnobDetection> detectKnobs(const FaceImage& image, const DetectorModel& model, const DetectorConfig& config) {
-  OIKOS_CHECK(static_cast<int>(model.weights.size()) == kDescriptorSize);
   std::vector<KnobDetection> found;
   for (int layer = 0; layer < kLayers; ++layer) {
     const double scale = std::pow(config.layer_ratio, layer - (kLayers - 1) / 2.0);
@@ -101,19 +112,19 @@ std::vector<KnobDetection> detectKnobs(const FaceImage& image, const DetectorMod
 }
 
 double scoreWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch, const DetectorModel& model) {
-  const std::vector<float> descriptor = describeWindow(image, centre_patch);
+  const std::vector<float> descriptor = describeWindow(image, centre_patch, model.describe);
   OIKOS_CHECK(descriptor.size() == model.weights.size());
   return std::inner_product(descriptor.begin(), descriptor.end(), model.weights.begin(), model.bias);
 }
 
-std::vector<float> describeWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch) {
+std::vector<float> describeWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch, const CellDescriber& describe) {
   PatchGrid grid;
   const int side = kWindow_px + 2 * kMargin_px;
   grid.size = {side, side};
   grid.px_per_m = kWindowRadius_px / image.radius_m;
   grid.origin_px = Eigen::Vector2d::Constant((side - 1) / 2.0);
   grid.centre_patch = centre_patch;
-  return normaliseByBlocks(histogramCells(differentiate(samplePatch(image.color, image.camera, image.view, grid)), kDetectorHog)).values;
+  return describe(samplePatch(image.color, image.camera, image.view, grid), {cv::Point()}).at(0).values;
 }
 
 }  // namespace oikos::recognition

@@ -3,7 +3,7 @@
 // (the user's paper 003, 5.2.1.2 and 5.2.1.3), in the region where one is expected, seen as from straight above.
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,18 +19,26 @@ constexpr HogShape kDetectorHog = {6, 9};
 constexpr int kWindowCells = kWindow_px / 6;
 constexpr int kDescriptorSize = kWindowCells * kWindowCells * 9;
 
+/// What a patch (CV_32FC3, 0 to 1) looks like in cells of 6 px, counted from each of `starts` and without the outermost ring of them: the
+/// normalisation of the others may look at it.
+using CellDescriber = std::function<std::vector<HogCells>(const cv::Mat& patch, const std::vector<cv::Point>& starts)>;
+
+/// kDetectorHog, normalised by blocks.
+[[nodiscard]] std::vector<HogCells> describeByHog(const cv::Mat& patch, const std::vector<cv::Point>& starts);
+
 /// A window's score is weights · descriptor + bias.
 struct DetectorModel {
-  std::vector<float> weights;  ///< kDescriptorSize, cell by cell, row by row
+  std::vector<float> weights;  ///< cell by cell, row by row; kDescriptorSize for describeByHog
   float bias = 0.0F;
-  float threshold = 0.0F;  ///< of the score, where the detector has to decide alone
+  float threshold = 0.0F;                  ///< of the score, where the detector has to decide alone
+  CellDescriber describe = describeByHog;  ///< thread-safe
 };
 
 /// The model that the program was built with: `oikos model train knobs` with its defaults.
 [[nodiscard]] const DetectorModel& shippedDetector();
 
-/// Text: `oikos-knob-detector 1`, the number of weights, the bias, the threshold, the weights. Throws Error{kInput} that names `where`, the
-/// line, what was found and what would be right.
+/// A model for describeByHog. Text: `oikos-knob-detector 1`, the number of weights, the bias, the threshold, the weights. Throws
+/// Error{kInput} that names `where`, the line, what was found and what would be right.
 [[nodiscard]] DetectorModel parseDetector(std::string_view text, const std::string& where);
 [[nodiscard]] std::string writeDetector(const DetectorModel& model);
 
@@ -69,6 +77,6 @@ struct FaceImage {
 [[nodiscard]] double scoreWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch, const DetectorModel& model);
 
 /// The descriptor of the window around a point of the patch's plane, for a knob of `radius_m`; what training gathers.
-[[nodiscard]] std::vector<float> describeWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch);
+[[nodiscard]] std::vector<float> describeWindow(const FaceImage& image, const Eigen::Vector2d& centre_patch, const CellDescriber& describe);
 
 }  // namespace oikos::recognition

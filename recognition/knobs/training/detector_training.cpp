@@ -55,12 +55,13 @@ bool isInPicture(const Example& example, const Eigen::Vector2d& point_patch) {
   return example.camera.contains(projectPatch(example.view, example.camera, point_patch), 2.0);
 }
 
-std::vector<Window> firstWindows(const Example& example, const DetectorTrainingConfig& config, Random& random) {
+std::vector<Window> firstWindows(const Example& example, const DetectorTrainingConfig& config, const CellDescriber& describe,
+                                 Random& random) {
   std::vector<Window> windows;
   const auto add = [&](const Eigen::Vector2d& centre_patch, double scale, bool is_knob) {
     FaceImage image = example.image();
     image.radius_m *= scale;
-    windows.push_back({describeWindow(image, centre_patch), is_knob});
+    windows.push_back({describeWindow(image, centre_patch, describe), is_knob});
   };
   for (const Eigen::Vector2d& centre : example.centres_patch) {
     if (isInPicture(example, centre)) {
@@ -88,14 +89,15 @@ std::vector<Window> hardWindows(const Example& example, const DetectorModel& mod
     if (!example.isKnob(found.centre_patch, kApart) && static_cast<int>(windows.size()) < config.hard_per_panel) {
       FaceImage image = example.image();
       image.radius_m = found.radius_m;
-      windows.push_back({describeWindow(image, found.centre_patch), false});
+      windows.push_back({describeWindow(image, found.centre_patch, model.describe), false});
     }
   }
   return windows;
 }
 
-DetectorModel fitSvm(const std::vector<Window>& windows, double cost) {
-  cv::Mat samples(static_cast<int>(windows.size()), kDescriptorSize, CV_32FC1);
+DetectorModel fitSvm(const std::vector<Window>& windows, double cost, const CellDescriber& describe) {
+  const auto numbers = static_cast<int>(windows.front().descriptor.size());
+  cv::Mat samples(static_cast<int>(windows.size()), numbers, CV_32FC1);
   cv::Mat labels(static_cast<int>(windows.size()), 1, CV_32SC1);
   for (std::size_t i = 0; i < windows.size(); ++i) {
     std::copy(windows[i].descriptor.begin(), windows[i].descriptor.end(), samples.ptr<float>(static_cast<int>(i)));
@@ -113,10 +115,11 @@ DetectorModel fitSvm(const std::vector<Window>& windows, double cost) {
   const cv::Mat weights = svm->getSupportVectors();  // a linear machine keeps one
   DetectorModel model;
   // OpenCV's decision function is positive for the lesser label.
-  for (int i = 0; i < kDescriptorSize; ++i) {
+  for (int i = 0; i < numbers; ++i) {
     model.weights.push_back(-weights.at<float>(0, i));
   }
   model.bias = static_cast<float>(rho);
+  model.describe = describe;
   return model;
 }
 
@@ -226,7 +229,8 @@ DetectionScene drawDetectionScene(const PanelLook& look, int knob_count, Random&
   return scene;
 }
 
-TrainedDetector trainDetector(const PanelLook& look, const DetectorTrainingConfig& config, const TrainingRun& run) {
+TrainedDetector trainDetector(const PanelLook& look, const DetectorTrainingConfig& config, const TrainingRun& run,
+                              const CellDescriber& describe) {
   OIKOS_CHECK(base::validateConfig(config).empty());
   std::vector<Example> examples(static_cast<std::size_t>(config.panels));
   std::vector<std::vector<Window>> slots(examples.size());
@@ -235,7 +239,7 @@ TrainedDetector trainDetector(const PanelLook& look, const DetectorTrainingConfi
     Example& example = examples[static_cast<std::size_t>(i)];
     example = drawExample(look, run.seed, i);
     Random random(run.seed, 1'000'000 + static_cast<std::uint64_t>(i));
-    slots[static_cast<std::size_t>(i)] = firstWindows(example, config, random);
+    slots[static_cast<std::size_t>(i)] = firstWindows(example, config, describe, random);
     base::reportProgress(run.progress, {"rendering", ++done, config.panels});
   });
   const auto trained_on = static_cast<std::size_t>((1.0 - kHeldBack) * config.panels);
@@ -244,7 +248,7 @@ TrainedDetector trainDetector(const PanelLook& look, const DetectorTrainingConfi
     std::move(slots[i].begin(), slots[i].end(), std::back_inserter(windows));
   }
   TrainedDetector trained;
-  trained.model = fitSvm(windows, config.cost);
+  trained.model = fitSvm(windows, config.cost, describe);
   for (int round = 0; round < config.rounds; ++round) {
     base::reportProgress(run.progress, {"training", round, config.rounds});
     std::vector<std::vector<Window>> hard(trained_on);
@@ -254,12 +258,11 @@ TrainedDetector trainDetector(const PanelLook& look, const DetectorTrainingConfi
     for (std::vector<Window>& found : hard) {
       std::move(found.begin(), found.end(), std::back_inserter(windows));
     }
-    trained.model = fitSvm(windows, config.cost);
+    trained.model = fitSvm(windows, config.cost, describe);
   }
   trained.positives = static_cast<int>(std::count_if(windows.begin(), windows.end(), [](const Window& w) { return w.is_knob; }));
   trained.negatives = static_cast<int>(windows.size()) - trained.positives;
   setThreshold(scoreHeldBack(examples, trained_on, trained.model, run.threads), config, trained);
-  trained.model = parseDetector(writeDetector(trained.model), "the trained detector");
   return trained;
 }
 

@@ -39,15 +39,16 @@ struct TrainingRun {
 };
 
 struct TrainedDetector {
-  DetectorModel model;  ///< rounded as it is written
+  DetectorModel model;
   int positives = 0;
   int negatives = 0;
   double recall = 0.0;                  ///< on the panels that were held back
   double false_alarms_per_panel = 0.0;  ///< there
 };
 
-/// The same for any number of threads.
-[[nodiscard]] TrainedDetector trainDetector(const PanelLook& look, const DetectorTrainingConfig& config, const TrainingRun& run);
+/// The same for any number of threads. `describe`: what windows are described by; `writeDetector` can only write models of describeByHog.
+[[nodiscard]] TrainedDetector trainDetector(const PanelLook& look, const DetectorTrainingConfig& config, const TrainingRun& run,
+                                            const CellDescriber& describe = describeByHog);
 
 /// A picture of a panel with none, one or several knobs, of the sizes, tilts and blur that are asked for, and where one is expected.
 struct DetectionScene {

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
+#include "core/base/error.h"
 #include "recognition/knobs/knob.h"
 #include "recognition/knobs/training/angle_models.h"
 #include "recognition/knobs/training/detector_training.h"
@@ -39,6 +41,45 @@ TEST(KnobTraining, TellsKnobsFromTheRest) {
     right += score(scene.centres_patch[0]) > score(scene.centres_patch[0] + 1.5 * scene.radius_m * Eigen::Vector2d(1.0, 0.0)) ? 1 : 0;
   }
   EXPECT_GE(right, 17);  // by chance 10
+}
+
+/// One number a cell: how much of ours there is in all.
+std::vector<HogCells> describeBySums(const cv::Mat& patch, const std::vector<cv::Point>& starts) {
+  std::vector<HogCells> all = describeByHog(patch, starts);
+  for (HogCells& cells : all) {
+    HogCells sums{cells.columns, cells.rows, 1, {}};
+    for (std::size_t i = 0; i < cells.values.size(); i += 9) {
+      sums.values.push_back(std::accumulate(&cells.values[i], &cells.values[i] + 9, 0.0F));
+    }
+    cells = sums;
+  }
+  return all;
+}
+
+TEST(KnobTraining, LearnsByOtherNumbersThanOurs) {
+  const TrainedDetector trained = trainDetector(trainingLook(), smallTraining(), {4, 2, {}}, describeBySums);
+  EXPECT_EQ(trained.model.weights.size(), static_cast<std::size_t>(kWindowCells * kWindowCells));
+  Random random(99);
+  const DetectionScene scene = drawDetectionScene(trainingLook(), 1, random);
+  const FaceImage image{scene.color, scene.camera, scene.view, scene.radius_m};
+  DetectorConfig all;
+  all.min_score = -10.0;
+  const std::vector<KnobDetection> found = detectKnobs(image, trained.model, all);
+  ASSERT_FALSE(found.empty());
+  // A window as detection sees it has the score that its descriptor has, but for how both are resampled.
+  FaceImage sized = image;
+  sized.radius_m = found.front().radius_m;
+  EXPECT_NEAR(scoreWindow(sized, found.front().centre_patch, trained.model), found.front().score, 0.15);
+}
+
+TEST(KnobTraining, RefusesWeightsForOtherNumbers) {
+  DetectorModel model;
+  model.weights.assign(kWindowCells * kWindowCells, 0.0F);
+  Random random(99);
+  const DetectionScene scene = drawDetectionScene(trainingLook(), 1, random);
+  const FaceImage image{scene.color, scene.camera, scene.view, scene.radius_m};
+  EXPECT_THROW((void)detectKnobs(image, model, {}), base::ContractViolation);
+  EXPECT_THROW((void)writeDetector(model), base::ContractViolation);
 }
 
 TEST(KnobTraining, EveryFamilyIsASoundMeshOfItsSize) {
