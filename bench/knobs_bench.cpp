@@ -33,6 +33,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::string detector;
   bool has_training_look = false;
+  bool has_photos = false;
 };
 
 // ---- Detection
@@ -213,6 +214,15 @@ void reportReading(const std::vector<bench::ReadingTrial>& trials) {
   std::printf("%.2f ms a knob\n", ms / static_cast<double>(std::max<std::size_t>(1, trials.size())));
 }
 
+void reportPhotos(int count, bench::TrialSetup setup) {
+  std::printf("\nTemplates made of one photograph of each knob, its middle marked\n");
+  setup.templates = bench::TemplateSource::kPhoto;
+  reportReading(bench::runReading(count, setup));
+  std::printf("\nTemplates made of one photograph of each knob, its middle where the registration says\n");
+  setup.templates = bench::TemplateSource::kRegistered;
+  reportReading(bench::runReading(count, setup));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -226,6 +236,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads);
   app.add_option("--seed", options.seed);
   app.add_option("--detector", options.detector, "a file that `oikos model train knobs` has written, instead of the shipped one");
+  app.add_flag("--photos", options.has_photos, "also read with templates made of one photograph of each knob in place of its render");
   app.add_flag("--training-look", options.has_training_look, "detection in pictures like those of the training, to choose thresholds on");
   CLI11_PARSE(app, argc, argv);
   const std::optional<CellDescriber> fhog = bench::findFhog();
@@ -253,6 +264,10 @@ int main(int argc, char** argv) {
       setup.angle_models = &*models;
     }
     reportReading(bench::runReading(options.singles, setup));
+    if (options.has_photos) {
+      setup.angle_models = nullptr;
+      reportPhotos(options.singles, setup);
+    }
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "bench/knobs/belief.h"
 #include "bench/knobs/trials.h"
@@ -67,24 +68,60 @@ void readLearnt(const KnobReader& reader, const KnobPicture& picture, const Sett
   }
 }
 
+/// Where the frame of the knob's part is on the panel.
+Eigen::Isometry3d T_panel_part(const DrawnKnob& knob) {
+  return Eigen::Isometry3d(Eigen::Translation3d(knob.position_panel.x(), knob.position_panel.y(), 0.0));
+}
+
+DrawnKnob placeKnob(DrawnKnob knob, double angle_rad, Random& random) {
+  knob.position_panel = {random.between(-0.18, 0.18), random.between(-0.07, 0.07)};
+  knob.angle_rad = -angle_rad;  // clockwise
+  return knob;
+}
+
+/// A photograph as an installer takes it: from the front and near, the knob set to its first state, in the light of that day.
+KnobPhoto takePhoto(const PanelLook& look, const DrawnKnob& drawn, const KnobDescription& believed, const TrialSetup& setup,
+                    Random& random) {
+  const double angle_rad = believed.states.front().angle_rad;
+  const DrawnKnob knob = placeKnob(drawn, angle_rad + std::clamp(2.0 * random.normal(), -5.0, 5.0) * base::kRadPerDeg, random);
+  const Panel panel = drawPanel(look, {.knob_count = 1, .knob = knob}, random);
+  ShotOrder order = drawShot(knob, random);
+  order.diameter_px = random.between(80.0, 120.0);
+  order.tilt_rad = random.between(0.0, 15.0) * base::kRadPerDeg;
+  order.width_px = order.height_px = static_cast<int>(3.2 * order.diameter_px);
+  order.offset_px = 0.2 * order.diameter_px;
+  const PanelShot shot = shootPanel(panel, order, random);
+  Eigen::Isometry3d T_true_believed = drawMisplacement(random);
+  if (setup.templates == TemplateSource::kPhoto) {
+    constexpr double kMarked_px = 1.0;  // deviation
+    const double px_m = 2.0 * knob.size.radius_m / order.diameter_px;
+    T_true_believed.translation() = kMarked_px * px_m * Eigen::Vector3d(random.normal(), random.normal(), 0.0);
+  }
+  return {{shot.color, shot.camera, shot.T_camera_panel * T_panel_part(knob) * T_true_believed}, angle_rad};
+}
+
 std::vector<ReadingTrial> runKnob(int number, int count, const TrialSetup& setup) {
   Random knob_random(setup.seed + 1000, static_cast<std::uint64_t>(number));
   PanelLook look = setup.look;
   const std::size_t family = static_cast<std::size_t>(number) % setup.knobs.size();
   look.knobs = {setup.knobs[family].maker};
-  DrawnKnob knob = drawKnobs(look, 1, knob_random).front();
-  KnobReader reader(believe(knob, knob_random.between(0.0, kTurn), knob_random), {}, setup.detector);
+  const DrawnKnob drawn = drawKnobs(look, 1, knob_random).front();
+  const KnobDescription believed = believe(drawn, knob_random.between(0.0, kTurn), knob_random);
+  std::optional<KnobPhoto> photo;
+  if (setup.templates != TemplateSource::kRender) {
+    Random photo_random(setup.seed + 3000, static_cast<std::uint64_t>(number));
+    photo = takePhoto(look, drawn, believed, setup, photo_random);
+  }
+  KnobReader reader(believed, {}, setup.detector, photo);
   std::vector<ReadingTrial> trials;
   for (int i = 0; i < count; ++i) {
     Random random(setup.seed + 2000, static_cast<std::uint64_t>(number * 100'000 + i));
     const Setting setting = drawSetting(reader.knob(), random);
-    knob.position_panel = {random.between(-0.18, 0.18), random.between(-0.07, 0.07)};
-    knob.angle_rad = -setting.angle_rad;  // clockwise
+    const DrawnKnob knob = placeKnob(drawn, setting.angle_rad, random);
     const Panel panel = drawPanel(look, {.knob_count = 1, .knob = knob}, random);
     const ShotOrder order = drawShot(knob, random);
     const PanelShot shot = shootPanel(panel, order, random);
-    const Eigen::Isometry3d T_panel_part(Eigen::Translation3d(knob.position_panel.x(), knob.position_panel.y(), 0.0));
-    const KnobPicture picture{shot.color, shot.camera, shot.T_camera_panel * T_panel_part * drawMisplacement(random)};
+    const KnobPicture picture{shot.color, shot.camera, shot.T_camera_panel * T_panel_part(knob) * drawMisplacement(random)};
     ReadingTrial trial;
     (void)reader.read(picture);  // renders the templates
     const double begin_ms = processorTime_ms();

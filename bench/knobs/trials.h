@@ -14,6 +14,13 @@ namespace oikos::bench {
 
 constexpr int kStates = 9;
 
+/// What the templates of a knob are made of.
+enum class TemplateSource {
+  kRender,      ///< as it is believed to be
+  kPhoto,       ///< one photograph as an installer takes it, in which he marks the knob's middle
+  kRegistered,  ///< the same, its middle where the registration of its part says
+};
+
 struct TrialSetup {
   recognition::PanelLook look;
   recognition::DetectorModel detector;
@@ -21,6 +28,7 @@ struct TrialSetup {
   int variants = 6;                                        ///< of each of them
   bool has_confirmation = true;                            ///< of detections by the knob's own render
   const recognition::AngleModels* angle_models = nullptr;  ///< null: the learnt angles are left out
+  TemplateSource templates = TemplateSource::kRender;
   std::uint64_t seed = 1;
   int threads = 2;
 };

@@ -4,100 +4,15 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "core/render/view.h"
+#include "recognition/knobs/ring_images.h"
 
 namespace oikos::recognition {
 
 namespace {
 
-constexpr int kSuperSampling = 2;
-constexpr double kFarAway = 200.0;  // in radii: nearly parallel rays
-constexpr double kTemplateBlur_px = 0.7;
 constexpr double kWeakest = 2e-3;  // of a basis's strongest direction, in energy: what is weaker is noise
-
-constexpr int kShades = 4;  // constant, and the normal's x, y, z
-
-using Images = std::vector<cv::Mat>;  // CV_32FC1 of the window's size
-
-/// The mesh once a material, so that a render tells them apart.
-std::vector<std::shared_ptr<const model::TriangleMesh>> splitByMaterial(const model::TriangleMesh& mesh) {
-  std::map<std::uint32_t, model::TriangleMesh> parts;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const std::uint32_t material = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials[i];
-    model::TriangleMesh& part = parts[material];
-    if (part.vertices.empty()) {
-      part.vertices = mesh.vertices;
-      part.normals = mesh.normals;
-    }
-    part.triangles.push_back(mesh.triangles[i]);
-  }
-  std::vector<std::shared_ptr<const model::TriangleMesh>> meshes;
-  for (auto& [material, part] : parts) {
-    meshes.push_back(std::make_shared<const model::TriangleMesh>(std::move(part)));
-  }
-  return meshes;
-}
-
-/// Where the window is looked at from. Frame `patch`: as FaceView's, for a camera at azimuth 0 of the ring.
-struct Window {
-  int columns;
-  int rows;
-  int origin_column;
-  int origin_row;
-  double px_per_m;
-  double tilt_rad;
-};
-
-/// A camera so far away that its picture, stretched along the tilt, is the window as samplePatch would cut it.
-camera::PinholeCamera windowCamera(const Window& window, double distance_m) {
-  camera::PinholeCamera camera;
-  camera.width = window.columns * kSuperSampling;
-  camera.height = window.rows * kSuperSampling;
-  camera.fx = window.px_per_m * kSuperSampling * distance_m;
-  camera.fy = camera.fx / std::cos(window.tilt_rad);
-  camera.cx = window.origin_column * kSuperSampling + (kSuperSampling - 1) / 2.0;
-  camera.cy = window.origin_row * kSuperSampling + (kSuperSampling - 1) / 2.0;
-  return camera;
-}
-
-Eigen::Matrix3d cameraAxes(double tilt_rad, double azimuth_rad) {
-  const Eigen::Vector3d towards(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  Eigen::Matrix3d R_face_camera;
-  R_face_camera << up.cross(towards), std::cos(tilt_rad) * towards - std::sin(tilt_rad) * up,
-      -std::sin(tilt_rad) * towards - std::cos(tilt_rad) * up;
-  return R_face_camera;
-}
-
-/// Mask and shades of each material of the knob, then the mask of what it stands on.
-Images basisImages(const render::View& view, int materials, const Window& window) {
-  Images images(static_cast<std::size_t>(materials * kShades + 1));
-  for (cv::Mat& image : images) {
-    image = cv::Mat::zeros(window.rows, window.columns, CV_32FC1);
-  }
-  constexpr float kShare = 1.0F / (kSuperSampling * kSuperSampling);
-  for (int v = 0; v < view.part.rows; ++v) {
-    for (int u = 0; u < view.part.cols; ++u) {
-      const int part = view.part.at<std::int32_t>(v, u);
-      const cv::Point at(u / kSuperSampling, v / kSuperSampling);
-      if (part < 0 || part >= materials) {
-        images.back().at<float>(at) += kShare;
-        continue;
-      }
-      const auto& normal = view.normal_camera.at<cv::Vec3f>(v, u);
-      const auto first = static_cast<std::size_t>(part * kShades);
-      images[first].at<float>(at) += kShare;
-      for (int i = 0; i + 1 < kShades; ++i) {
-        images[first + 1 + static_cast<std::size_t>(i)].at<float>(at) += kShare * normal[i];
-      }
-    }
-  }
-  return images;
-}
 
 /// How much the pixels of the support count: what is printed on the carrier is not known.
 Eigen::VectorXf weigh(const cv::Mat& carrier, const std::vector<int>& support, float carrier_weight) {
@@ -110,7 +25,7 @@ Eigen::VectorXf weigh(const cv::Mat& carrier, const std::vector<int>& support, f
 }
 
 /// An orthonormal basis of what the images span on the support, weighted; a row a vector, times the weights' roots.
-Eigen::MatrixXf orthonormal(const Images& images, const std::vector<int>& support, const Eigen::VectorXf& weights) {
+Eigen::MatrixXf orthonormal(const std::vector<cv::Mat>& images, const std::vector<int>& support, const Eigen::VectorXf& weights) {
   const Eigen::VectorXf roots = weights.cwiseSqrt();
   const Eigen::VectorXf constant = roots.normalized();
   Eigen::MatrixXf columns(static_cast<Eigen::Index>(support.size()), static_cast<Eigen::Index>(images.size()));
@@ -136,41 +51,23 @@ Eigen::MatrixXf orthonormal(const Images& images, const std::vector<int>& suppor
 }  // namespace
 
 AngleRing::AngleRing(const KnobDescription& knob, const KnobFace& face, double tilt_rad, const RingShape& shape) : shape_(shape) {
-  const double px_per_m = shape.radius_px / face.radius_m;
-  const int rim = std::max(2, shape.radius_px / 7);
-  const int below = static_cast<int>(std::ceil(face.height_m * px_per_m * std::tan(tilt_rad)));
-  origin_column_ = shape.radius_px + rim;
-  origin_row_ = shape.radius_px + rim;
-  columns_ = 2 * origin_column_ + 1;
-  rows_ = 2 * origin_row_ + 1 + below;
-  const Window window{columns_, rows_, origin_column_, origin_row_, px_per_m, tilt_rad};
-  const double distance_m = kFarAway * face.radius_m;
-  const render::CameraRays rays(windowCamera(window, distance_m));
+  const RingWindow window = windowOf(face, tilt_rad, shape);
+  build(window, renderImages(knob, face, window, shape.angles));
+}
 
-  render::Scene scene;
-  const auto meshes = splitByMaterial(*knob.mesh_knob);
-  for (const auto& mesh : meshes) {
-    scene.add(mesh, face.T_knob_face.inverse());
-  }
-  scene.commit();
-  const auto materials = static_cast<int>(meshes.size());
-  render::ViewConfig config;
-  config.with_parts = true;
-  config.with_normals = true;
-  config.far_m = 2.0 * distance_m;
+AngleRing::AngleRing(const FacePhoto& photo, const KnobFace& face, double tilt_rad, const RingShape& shape) : shape_(shape) {
+  const RingWindow window = windowOf(face, tilt_rad, shape);
+  build(window, photoImages(photo, face, window, shape.angles));
+}
 
-  std::vector<Images> all;
+void AngleRing::build(const RingWindow& window, const std::vector<TemplateImages>& templates) {
+  columns_ = window.columns;
+  rows_ = window.rows;
+  origin_column_ = window.origin_column;
+  origin_row_ = window.origin_row;
   cv::Mat covered = cv::Mat::zeros(rows_, columns_, CV_32FC1);
-  for (int i = 0; i < shape.angles; ++i) {
-    const double azimuth_rad = 2.0 * std::numbers::pi * i / shape.angles;
-    Eigen::Isometry3d T_face_camera = Eigen::Isometry3d::Identity();
-    T_face_camera.linear() = cameraAxes(tilt_rad, azimuth_rad);
-    T_face_camera.translation() = -distance_m * T_face_camera.linear().col(2);
-    all.push_back(basisImages(render::renderView(scene, rays, {T_face_camera, {}}, config), materials, window));
-    covered = cv::max(covered, 1.0 - all.back().back());
-    for (cv::Mat& image : all.back()) {
-      cv::GaussianBlur(image, image, cv::Size(5, 5), kTemplateBlur_px, 0.0, cv::BORDER_REPLICATE);
-    }
+  for (const TemplateImages& one : templates) {
+    covered = cv::max(covered, one.covered);
   }
   cv::Mat wide;
   cv::dilate(covered, wide, cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(3, 3)));
@@ -181,11 +78,11 @@ AngleRing::AngleRing(const KnobDescription& knob, const KnobFace& face, double t
   }
   std::vector<Eigen::MatrixXf> bases;
   first_row_.push_back(0);
-  weights_.resize(shape.angles, static_cast<Eigen::Index>(support_.size()));
-  for (const Images& images : all) {
-    const Eigen::VectorXf weights = weigh(images.back(), support_, shape.carrier_weight);
+  weights_.resize(static_cast<Eigen::Index>(templates.size()), static_cast<Eigen::Index>(support_.size()));
+  for (const TemplateImages& one : templates) {
+    const Eigen::VectorXf weights = weigh(one.images.back(), support_, shape_.carrier_weight);
     weights_.row(static_cast<Eigen::Index>(bases.size())) = weights.transpose();
-    bases.push_back(orthonormal(images, support_, weights));
+    bases.push_back(orthonormal(one.images, support_, weights));
     first_row_.push_back(first_row_.back() + static_cast<int>(bases.back().rows()));
   }
   bases_.resize(first_row_.back(), static_cast<Eigen::Index>(support_.size()));

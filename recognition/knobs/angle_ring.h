@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a knob looks from one tilt in all its angles, whatever the light and the colours: its own renders as linear bases.
+// How a knob looks from one tilt in all its angles, whatever the light and the colours: its own renders as linear bases, or one photograph.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
+#include "recognition/knobs/face_patch.h"
 #include "recognition/knobs/knob.h"
 
 namespace oikos::recognition {
+
+struct RingWindow;
+struct TemplateImages;
 
 struct RingShape {
   int radius_px = 14;           ///< of the knob's face in a template
   int angles = 72;              ///< evenly all around
   float carrier_weight = 0.1F;  ///< how much pixels beside the knob count
+};
+
+/// What a photograph shows of a knob that is turned by an angle.
+struct FacePhoto {
+  const cv::Mat& color;  ///< CV_8UC3
+  const camera::PinholeCamera& camera;
+  FaceView view;  ///< of its face
+  double angle_rad = 0.0;
 };
 
 /// The templates of a knob under one tilt, all on the pixels of one window (S252: what tells the angle is where its materials are).
@@ -22,9 +34,13 @@ struct RingShape {
 /// shape and the borders of its materials tell: for each material its mask, and the mask times each component of the normal. Neither lamps
 /// nor colours need be known. A template is an orthonormal basis of that span; a picture belongs to the angle whose basis leaves the least
 /// of it over. Immutable, so thread-safe.
+///
+/// Of a photograph materials are told by their colours, normals not at all: the knob is taken for a cylinder whose face is flat, and the
+/// span is that of the masks of the face's main colours, turned on the face's plane, of the sides and of the carrier.
 class AngleRing {
  public:
   AngleRing(const KnobDescription& knob, const KnobFace& face, double tilt_rad, const RingShape& shape);
+  AngleRing(const FacePhoto& photo, const KnobFace& face, double tilt_rad, const RingShape& shape);
 
   /// Of the window, and the pixel of it where the face's middle is.
   [[nodiscard]] int columns() const { return columns_; }
@@ -44,6 +60,8 @@ class AngleRing {
   [[nodiscard]] const std::vector<int>& firstRow() const { return first_row_; }
 
  private:
+  void build(const RingWindow& window, const std::vector<TemplateImages>& templates);
+
   RingShape shape_;
   int columns_ = 0;
   int rows_ = 0;

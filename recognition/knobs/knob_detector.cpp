@@ -96,6 +96,7 @@ std::vector<std::string> DetectorConfig::validate() const {
 std::vector<HogCells> describeByHog(const cv::Mat& patch, const std::vector<cv::Point>& starts) {
   const Gradients gradients = differentiate(patch);
   std::vector<HogCells> cells;
+  cells.reserve(starts.size());
   for (const cv::Point& start : starts) {
     cells.push_back(normaliseByBlocks(histogramCells(gradients, kDetectorHog, start)));
   }

@@ -60,9 +60,29 @@ std::vector<std::string> KnobReaderConfig::validate() const {
       .messages();
 }
 
-KnobReader::KnobReader(KnobDescription knob, const KnobReaderConfig& config, DetectorModel detector)
-    : knob_(checked(std::move(knob))), face_(findFace(knob_)), config_(config), detector_(std::move(detector)) {
+KnobReader::KnobReader(KnobDescription knob, const KnobReaderConfig& config, DetectorModel detector, std::optional<KnobPhoto> photo)
+    : knob_(checked(std::move(knob))), face_(findFace(knob_)), config_(config), detector_(std::move(detector)), photo_(std::move(photo)) {
   OIKOS_CHECK(base::validateConfig(config).empty());
+  if (!photo_) {
+    return;
+  }
+  OIKOS_CHECK(photo_->picture.color.type() == CV_8UC3 && std::isfinite(photo_->angle_rad));
+  const std::string reason = obstacle(viewOf(photo_->picture), face_, photo_->picture.camera, config_);
+  if (!reason.empty()) {
+    throw base::Error(base::ErrorCode::kInput, "the photograph of knob '" + knob_.name + "' cannot be read from: it is " + reason);
+  }
+}
+
+FaceView KnobReader::viewOf(const KnobPicture& picture) const {
+  return viewFace(picture.T_camera_part * knob_.T_part_knob * face_.T_knob_face, picture.camera);
+}
+
+AngleRing KnobReader::ringOf(double tilt_rad, const RingShape& shape) const {
+  if (photo_) {
+    const KnobPicture& picture = photo_->picture;
+    return {FacePhoto{picture.color, picture.camera, viewOf(picture), photo_->angle_rad}, face_, tilt_rad, shape};
+  }
+  return {knob_, face_, tilt_rad, shape};
 }
 
 const RingPair& KnobReader::ringsOf(double tilt_rad) {
@@ -72,8 +92,7 @@ const RingPair& KnobReader::ringsOf(double tilt_rad) {
     return found->second;
   }
   const double of_step_rad = step * kTiltStep_rad;
-  return rings_.emplace(step, RingPair{AngleRing(knob_, face_, of_step_rad, kCoarse), AngleRing(knob_, face_, of_step_rad, kFine)})
-      .first->second;
+  return rings_.emplace(step, RingPair{ringOf(of_step_rad, kCoarse), ringOf(of_step_rad, kFine)}).first->second;
 }
 
 void KnobReader::readAngle(const AngleFit& fit, const FaceView& view, KnobReading& reading) const {
@@ -149,7 +168,7 @@ std::vector<KnobReader::Found> KnobReader::find(const KnobPicture& picture, cons
 KnobReading KnobReader::read(const KnobPicture& picture) {
   OIKOS_CHECK(picture.color.type() == CV_8UC3);
   KnobReading reading;
-  const FaceView view = viewFace(picture.T_camera_part * knob_.T_part_knob * face_.T_knob_face, picture.camera);
+  const FaceView view = viewOf(picture);
   reading.reason = obstacle(view, face_, picture.camera, config_);
   if (!reading.reason.empty()) {
     return reading;

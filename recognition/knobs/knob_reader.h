@@ -80,12 +80,22 @@ struct KnobPicture {
   Eigen::Isometry3d T_camera_part = Eigen::Isometry3d::Identity();
 };
 
+/// One photograph of a knob as it is installed, set to an angle that is known: the templates are then made of it, and the knob's mesh need
+/// tell nothing but its radius and height. Best from the front (15 degrees of tilt at most), 80 px and more across; where its middle is
+/// believed by `picture` is where it is turned about. Read so, states are far less certain than by a mesh that shows the mark, and less
+/// than their probabilities say (docs/benchmarks.md).
+struct KnobPhoto {
+  KnobPicture picture;
+  double angle_rad = 0.0;
+};
+
 /// Reads one knob. Templates are rendered when a tilt is met for the first time and kept (some 0.2 s and 4 MB for each 5 degrees of
 /// tilt). Not thread-safe.
 class KnobReader {
  public:
-  /// Throws Error{kInput} for a knob without a mesh or without extent.
-  KnobReader(KnobDescription knob, const KnobReaderConfig& config, DetectorModel detector = shippedDetector());
+  /// Throws Error{kInput} for a knob without a mesh or without extent, and for a photograph that cannot be read from, with the reason.
+  KnobReader(KnobDescription knob, const KnobReaderConfig& config, DetectorModel detector = shippedDetector(),
+             std::optional<KnobPhoto> photo = {});
 
   KnobReading read(const KnobPicture& picture);
 
@@ -103,6 +113,8 @@ class KnobReader {
   [[nodiscard]] const KnobFace& face() const { return face_; }
 
  private:
+  [[nodiscard]] FaceView viewOf(const KnobPicture& picture) const;
+  [[nodiscard]] AngleRing ringOf(double tilt_rad, const RingShape& shape) const;
   const RingPair& ringsOf(double tilt_rad);
   [[nodiscard]] std::vector<KnobDetection> propose(const FaceImage& image) const;
   void readAngle(const AngleFit& fit, const FaceView& view, KnobReading& reading) const;
@@ -111,6 +123,7 @@ class KnobReader {
   KnobFace face_;
   KnobReaderConfig config_;
   DetectorModel detector_;
+  std::optional<KnobPhoto> photo_;
   std::map<int, RingPair> rings_;  ///< by tilt, in steps of kTiltStep
 };
 

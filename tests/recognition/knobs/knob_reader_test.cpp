@@ -120,8 +120,8 @@ TEST(KnobReader, HalfWayBetweenStatesItCannotTell) {
   EXPECT_LT(errorDeg(reading, oven.angle_rad), kTolerance_deg);
 }
 
-TEST(KnobReader, WithoutAMarkItCannotTell) {
-  OvenPicture oven;
+/// As the oven's knob, with nothing that tells its angle.
+std::shared_ptr<const model::TriangleMesh> knobWithoutMark() {
   model::TriangleMesh bare = model::makeCylinder({.radius_m = 0.021F, .length_m = 0.02F, .segments = 48});
   model::Material dark;
   dark.color_rgb = Eigen::Vector3f::Constant(0.17F);
@@ -130,12 +130,57 @@ TEST(KnobReader, WithoutAMarkItCannotTell) {
   model::append(
       mesh_part, bare,
       Eigen::Translation3d(0.01, 0.0, 0.0) * Eigen::Isometry3d(Eigen::AngleAxisd(std::numbers::pi / 2.0, Eigen::Vector3d::UnitY())));
-  oven.oven.parts[static_cast<std::size_t>(oven.oven.knobs[2].part)].mesh_part = std::make_shared<const model::TriangleMesh>(mesh_part);
+  return std::make_shared<const model::TriangleMesh>(mesh_part);
+}
+
+TEST(KnobReader, WithoutAMarkItCannotTell) {
+  OvenPicture oven;
+  oven.oven.parts[static_cast<std::size_t>(oven.oven.knobs[2].part)].mesh_part = knobWithoutMark();
   oven.knob = describeKnob(oven.oven, 2);
   KnobReader reader(oven.knob, {});
   const KnobReading reading = reader.read(oven.take());
   EXPECT_NE(reading.status, KnobStatus::kRead);
   EXPECT_LT(reading.probability, 0.5);
+}
+
+/// What is known of the oven's knob is its size; from the front and near, turned by `angle_rad`, a photograph is taken.
+KnobReader readerByPhoto(double angle_rad) {
+  OvenPicture installed;
+  installed.angle_rad = angle_rad;
+  installed.distance_m = 0.25;  // 88 px
+  installed.tilt_deg = 8.0;
+  installed.aside_deg = 100.0;
+  model::ArticulatedModel unmarked = installed.oven;
+  unmarked.parts[static_cast<std::size_t>(unmarked.knobs[2].part)].mesh_part = knobWithoutMark();
+  return {describeKnob(unmarked, 2), {}, shippedDetector(), KnobPhoto{installed.take(), angle_rad}};
+}
+
+TEST(KnobReader, APhotographTellsWhatTheModelDoesNot) {
+  OvenPicture oven;
+  for (const double of_photo_rad : {0.0, 100.0 * kDegree}) {
+    KnobReader reader = readerByPhoto(of_photo_rad);
+    for (std::size_t state = 0; state < oven.knob.states.size(); ++state) {
+      oven.angle_rad = oven.knob.states[state].angle_rad;
+      const KnobReading reading = reader.read(oven.take());
+      ASSERT_EQ(reading.status, KnobStatus::kRead) << state << ": " << reading.reason;
+      EXPECT_EQ(reading.state, state);
+      // The mark's edge in the photograph is told to a fraction of a template's pixel, too.
+      EXPECT_LT(errorDeg(reading, oven.angle_rad), 1.5 * kTolerance_deg) << state;
+    }
+  }
+}
+
+TEST(KnobReader, RefusesAPhotographThatDoesNotShowTheKnob) {
+  OvenPicture oven;
+  KnobPhoto photo{oven.take(), 0.0};
+  photo.picture.T_camera_part = Eigen::Translation3d(0.6, 0.0, 0.0) * photo.picture.T_camera_part;
+  try {
+    const KnobReader reader(oven.knob, {}, shippedDetector(), photo);
+    FAIL() << "it was taken";
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the photograph of knob '" + oven.knob.name + "'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("out of the picture"), std::string::npos) << error.what();
+  }
 }
 
 TEST(KnobReader, AKnobThatIsGoneIsNotFound) {
