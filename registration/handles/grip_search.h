@@ -4,24 +4,12 @@
 
 #include <vector>
 
-#include "registration/handles/blurred_bar.h"
+#include "registration/handles/bar_fit.h"
 #include "registration/handles/grip_config.h"
 #include "registration/handles/grip_evidence.h"
 #include "registration/handles/grip_readings.h"
 
 namespace oikos::registration {
-
-/// One place where something stands out as a handle does.
-struct GripPlace {
-  Bar bar;
-  BarMatrix covariance = BarMatrix::Zero();  ///< in the order of Bar
-  double gain = 0.0;                         ///< log likelihood over that of a bare front
-  double score = 0.0;                        ///< the same, with what was believed of the place
-  int readings = 0;                          ///< that show it, at least half
-};
-
-/// The bar that is believed, without its height being known.
-[[nodiscard]] Bar believedBar(const GripBelief& belief);
 
 /// Places at which a grip explains the readings better than a bare front does by `min_gain`, the best first, `apart_m` from each other: a
 /// search over a grid (the believed grip's blurred shape against the heights), then Gauss-Newton from each with the belief as prior.

@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDiscAsSquare = 0.886;  // half the side of the square that has a disc's area, of the disc's radius
-constexpr double kSeenOfBar = 0.785;     // of a round bar's radius, what its visible side stands out in the mean
 constexpr double kUntold = 0.7;          // of the prior's deviation: what is told no better comes from the prior
 
 GripBelief beliefOf(const model::ModelHandle& handle, const GripConfig& config) {
