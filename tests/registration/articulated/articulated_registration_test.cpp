@@ -14,15 +14,6 @@
 namespace oikos::registration {
 namespace {
 
-// Depths are exact, but a pixel in four rows and columns is looked at, and a door's place is taken to be uncertain by 4 mm.
-constexpr double kDoorTolerance_rad = 0.5 * kDegree;
-constexpr double kDrawerTolerance_m = 0.004;
-
-void expectSame(const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b, double tolerance_m, double tolerance_rad) {
-  EXPECT_LT((T_a.translation() - T_b.translation()).norm(), tolerance_m);
-  EXPECT_LT(Eigen::AngleAxisd(T_a.linear().transpose() * T_b.linear()).angle(), tolerance_rad);
-}
-
 TEST(ArticulatedRegistration, ADoorIsFoundFromAnyStart) {
   DoorWorld world("cabinet", {});
   for (const double true_deg : {0.0, 8.0, 35.0, 80.0, 110.0}) {
@@ -115,52 +106,6 @@ TEST(ArticulatedRegistration, TheBaseIsRegisteredAgain) {
   EXPECT_LT(result.rms_m, 0.004);
 }
 
-TEST(ArticulatedRegistration, WhatIsOutOfViewIsSaidToBe) {
-  DoorWorld world("cabinet", {});
-  world.T_map_camera.rotate(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY()));  // looks the other way
-  const ArticulatedResult result = world.registered({0.3});
-  EXPECT_EQ(result.status, BaseStatus::kNotInView);
-  EXPECT_EQ(result.joints[0].status, JointStatus::kNotInView);
-  EXPECT_EQ(result.joints[0].value, 0.3);
-  EXPECT_GT(result.joints[0].variance, 0.25);  // anywhere in its range
-  expectSame(result.T_map_model, world.T_map_model, 1e-12, 1e-9);
-  EXPECT_GT(result.covariance(0, 0), 0.0);
-}
-
-TEST(ArticulatedRegistration, ADoorSeenFromBehindIsNotFound) {
-  DoorWorld world("cabinet", {});
-  world.has_wall = false;
-  world.lookFrom(2.0, 180.0);
-  const ArticulatedResult result = world.registered({0.0});
-  EXPECT_NE(result.joints[0].status, JointStatus::kFound);
-  EXPECT_NE(result.joints[0].status, JointStatus::kAmbiguous);
-}
-
-/// A thin leaf on a block, whose plane goes through the camera: what is left of it are a few pixels (S361).
-TEST(ArticulatedRegistration, ALeafSeenEdgeOnIsNotFound) {
-  model::ArticulatedModel block;
-  block.name = "block";
-  block.parts.push_back({"body", cuboid(Eigen::AlignedBox3d(Eigen::Vector3d(-0.3, -0.3, 0.0), Eigen::Vector3d(0.28, 0.3, 0.85)))});
-  block.parts.push_back({"leaf", cuboid(Eigen::AlignedBox3d(Eigen::Vector3d(-0.001, 0.0, -0.4), Eigen::Vector3d(0.001, 0.58, 0.4)))});
-  model::ModelJoint hinge;
-  hinge.name = "hinge";
-  hinge.type = model::MotionType::kRevolute;
-  hinge.child = 1;
-  hinge.T_parent_joint.translation() = Eigen::Vector3d(0.3, -0.29, 0.43);
-  hinge.axis_joint = -Eigen::Vector3d::UnitZ();
-  hinge.upper = 110.0 * kDegree;
-  block.joints.push_back(hinge);
-  DoorWorld world(block);
-  world.lookFrom(1.8, 0.0);
-  const Eigen::Vector3d eye_model = world.T_map_model.inverse() * world.T_map_camera.translation();
-  world.values = {std::atan2(eye_model.x() - 0.3, eye_model.y() + 0.29)};
-  EXPECT_EQ(world.registered({0.0}).joints[0].status, JointStatus::kNotObservable);
-  world.values = {40.0 * kDegree};
-  const ArticulatedResult seen = world.registered({0.0});
-  EXPECT_EQ(seen.joints[0].status, JointStatus::kFound);
-  EXPECT_NEAR(seen.joints[0].value, world.values[0], kDoorTolerance_rad);
-}
-
 /// What has no limits is looked for about where it is believed to be.
 TEST(ArticulatedRegistration, ASlideWithoutLimitsIsFound) {
   DoorWorld world("drawer_unit", {{"drawer_count", "1"}});
@@ -170,84 +115,6 @@ TEST(ArticulatedRegistration, ASlideWithoutLimitsIsFound) {
   const ArticulatedResult result = world.registered({0.0});
   EXPECT_EQ(result.joints[0].status, JointStatus::kFound);
   EXPECT_NEAR(result.joints[0].value, 0.25, kDrawerTolerance_m);
-}
-
-TEST(ArticulatedRegistration, NoReadingsNoView) {
-  const DoorWorld world("cabinet", {});
-  Scan scan = world.scan();
-  for (ScanPoint& point : scan.points) {
-    point = {};
-  }
-  const ArticulatedResult result = ArticulatedRegistration(world.model, {}).run(scan, world.T_map_camera, world.believed({0.2}));
-  EXPECT_EQ(result.joints[0].status, JointStatus::kNotInView);
-  EXPECT_EQ(result.status, BaseStatus::kNotInView);
-  EXPECT_TRUE(result.T_map_model.matrix().allFinite());
-}
-
-/// A sheet that turns about its own middle looks the same after half a turn.
-TEST(ArticulatedRegistration, ASheetThatTurnsAboutItsMiddleIsAmbiguous) {
-  model::ArticulatedModel sheet;
-  sheet.name = "sheet";
-  sheet.parts.push_back({"foot", cuboid(Eigen::AlignedBox3d(Eigen::Vector3d(-0.3, -0.3, 0.0), Eigen::Vector3d(0.3, 0.3, 0.1)))});
-  sheet.parts.push_back({"leaf", cuboid(Eigen::AlignedBox3d(Eigen::Vector3d(-0.01, -0.3, 0.1), Eigen::Vector3d(0.01, 0.3, 0.9)))});
-  model::ModelJoint pivot;
-  pivot.name = "pivot";
-  pivot.type = model::MotionType::kRevolute;
-  pivot.parent = 0;
-  pivot.child = 1;
-  pivot.upper = 300.0 * kDegree;
-  sheet.joints.push_back(pivot);
-  DoorWorld world(sheet);
-  world.values = {40.0 * kDegree};
-  world.lookFrom(1.8, 10.0);
-  const ArticulatedResult result = world.registered({0.0});
-  EXPECT_EQ(result.joints[0].status, JointStatus::kAmbiguous);
-  const double half_turns = result.joints[0].value / std::numbers::pi;
-  EXPECT_NEAR(half_turns - std::floor(half_turns), 40.0 / 180.0, 0.01);  // one of the two it is
-  EXPECT_GT(std::sqrt(result.joints[0].variance), 30.0 * kDegree);
-}
-
-TEST(ArticulatedRegistration, AHandBeforeTheDoorDoesNotPullIt) {
-  DoorWorld world("cabinet", {});
-  world.values = {0.0};
-  world.lookFrom(1.8, 0.0);
-  world.obstacles.push_back({Eigen::AlignedBox3d(Eigen::Vector3d(0.32, -0.1, 0.3), Eigen::Vector3d(0.42, 0.25, 0.9))});
-  const ArticulatedResult result = world.registered({60.0 * kDegree});
-  EXPECT_EQ(result.joints[0].status, JointStatus::kFound);
-  EXPECT_NEAR(result.joints[0].value, 0.0, kDoorTolerance_rad);
-  EXPECT_GT(result.joints[0].sight.nearer, 50);
-}
-
-TEST(ArticulatedRegistration, ADoorBehindAScreenIsHidden) {
-  DoorWorld world("cabinet", {});
-  world.lookFrom(2.2, 0.0);
-  world.obstacles.push_back({Eigen::AlignedBox3d(Eigen::Vector3d(1.2, -1.5, 0.0), Eigen::Vector3d(1.25, 1.5, 1.9))});
-  const ArticulatedResult result = world.registered({20.0 * kDegree});
-  EXPECT_EQ(result.joints[0].status, JointStatus::kHidden);
-  EXPECT_EQ(result.status, BaseStatus::kNotInView);
-}
-
-TEST(ArticulatedRegistration, ContentsDoNotPullADoor) {
-  DoorWorld world("cabinet", {});
-  world.values = {65.0 * kDegree};
-  world.lookFrom(1.7, -20.0);
-  // Tins just behind the front: a wall of them where the closed door would be, 3 cm farther in.
-  world.obstacles.push_back({Eigen::AlignedBox3d(Eigen::Vector3d(0.05, -0.25, 0.13), Eigen::Vector3d(0.24, 0.25, 0.75))});
-  const ArticulatedResult result = world.registered({0.0});
-  EXPECT_EQ(result.joints[0].status, JointStatus::kFound);
-  EXPECT_NEAR(result.joints[0].value, world.values[0], kDoorTolerance_rad);
-  expectSame(result.T_map_model, world.T_map_model, 0.006, 0.3 * kDegree);
-}
-
-TEST(ArticulatedRegistration, APieceThatIsNotThereHasNoDoors) {
-  DoorWorld world("cabinet", {});
-  world.values = {20.0 * kDegree};
-  Standing believed = world.believed({0.0});
-  believed.T_map_model.translate(Eigen::Vector3d(0.0, 1.2, 0.0));
-  world.lookFrom(2.2, -25.0);
-  const ArticulatedResult result = ArticulatedRegistration(world.model, {}).run(world.scan(), world.T_map_camera, believed);
-  EXPECT_NE(result.status, BaseStatus::kRegistered);
-  EXPECT_NE(result.joints[0].status, JointStatus::kFound);
 }
 
 /// A flap on a door: it hangs on a joint of the door, and a handle is fixed to it.
@@ -336,41 +203,6 @@ TEST(ArticulatedRegistration, NothingIsLeftOverFromTheLastImage) {
   EXPECT_EQ(again.T_map_model.matrix(), fresh.T_map_model.matrix());
 }
 
-/// Depth that is more and more wrong across a door turns it: by as much as is said, if distortion is said to be what it is.
-TEST(ArticulatedRegistration, DistortedDepthIsInADoorsVariance) {
-  DoorWorld world("cabinet", {});
-  world.values = {12.0 * kDegree};
-  world.lookFrom(1.7, 0.0);
-  world.ramp = 0.02;
-  ArticulatedConfig config;
-  config.solver.base_sigma_m = 0.001;
-  config.solver.base_sigma_deg = 0.05;
-  const ArticulatedResult trusting = world.registered({0.0}, config);
-  const double off = std::abs(trusting.joints[0].value - world.values[0]);
-  EXPECT_GT(off, 3.0 * std::sqrt(trusting.joints[0].variance));
-
-  const double half_width_px = 0.3 / 1.45 * test::kinectCamera().fx;  // of the door, whose front is 1.45 m away
-  config.solver.depth_distortion = 2.0 * world.ramp * half_width_px / std::sqrt(3.0) / test::kinectCamera().width;  // root mean square
-  const ArticulatedResult told = world.registered({0.0}, config);
-  EXPECT_EQ(told.joints[0].value, trusting.joints[0].value);
-  const double of_distortion = told.joints[0].variance - trusting.joints[0].variance;
-  EXPECT_NEAR(std::sqrt(of_distortion), off, 0.2 * off);
-  EXPECT_NEAR(told.joints[0].evidence.shared_variance - trusting.joints[0].evidence.shared_variance, of_distortion, 1e-12);
-}
-
-TEST(ArticulatedRegistration, DistortedDepthIsInADrawersVariance) {
-  DoorWorld world("drawer_unit", {});
-  world.values = {0.2, 0.0, 0.0};
-  world.lookFrom(1.7, 0.0);
-  ArticulatedConfig config;
-  const double trusting = world.registered({0.0, 0.0, 0.0}, config).joints[0].variance;
-  config.solver.depth_distortion = 0.01;
-  const double told = world.registered({0.0, 0.0, 0.0}, config).joints[0].variance;
-  const double height_m = 1.7 - 0.2;  // of the camera before the front: the unit's own depth and the drawer's way come off
-  EXPECT_LT(std::sqrt(told - trusting), 0.01 * height_m);
-  EXPECT_GT(std::sqrt(told - trusting), 0.5 * 0.01 * (height_m - 0.4));  // outlines tell the rest
-}
-
 TEST(ArticulatedRegistration, ConfigurationRules) {
   test::checkConfigRules<ArticulatedConfig>({{"stride_m", "0", "must be > 0"},
                                              {"coarse_thinning", "0", "must be >= 1"},
@@ -384,27 +216,6 @@ TEST(ArticulatedRegistration, ConfigurationRules) {
                                              {"min_base_share", "2", "must be from 0 to 1"},
                                              {"unlimited_m", "0", "must be > 0"},
                                              {"threads", "0", "must be >= 1"}});
-  test::checkConfigRules<JointSolverConfig>({{"base_sigma_m", "0", "must be > 0"},
-                                             {"base_sigma_deg", "0", "must be > 0"},
-                                             {"upright_sigma_m", "0", "must be > 0"},
-                                             {"upright_sigma_deg", "0", "must be > 0"},
-                                             {"axis_sigma_m", "0", "must be > 0"},
-                                             {"axis_sigma_deg", "-1", "must be >= 0"},
-                                             {"surface_sigma_m", "0", "must be > 0"},
-                                             {"wide_sigma_m", "0.001", "must be >= 0.005"},
-                                             {"depth_distortion", "0.3", "must be from 0 to 0.2"},
-                                             {"tempering", "2", "must be > 0 and <= 1"},
-                                             {"most_readings", "0", "must be > 0"},
-                                             {"rounds", "0", "must be >= 1"}});
-  test::checkConfigRules<JointDecisionConfig>({{"window_deg", "0", "must be > 0"},
-                                               {"window_m", "0", "must be > 0"},
-                                               {"min_confidence", "0.4", "must be from 0.5 to 1"},
-                                               {"max_sigma_deg", "0", "must be > 0"},
-                                               {"max_sigma_m", "0", "must be > 0"},
-                                               {"min_agreeing", "0", "must be >= 1"},
-                                               {"min_share", "2", "must be from 0 to 1"},
-                                               {"max_hidden", "2", "must be from 0 to 1"},
-                                               {"max_spread", "2", "must be from 0 to 1"}});
   ArticulatedConfig broken;
   broken.solver.rounds = 0;
   EXPECT_THROW(ArticulatedRegistration(DoorWorld("cabinet", {}).model, broken), base::ContractViolation);
@@ -413,7 +224,6 @@ TEST(ArticulatedRegistration, ConfigurationRules) {
 TEST(ArticulatedRegistration, Names) {
   test::checkEnumTable(BaseStatus::kRegistered);
   test::checkEnumTable(SolveOrder::kTogether);
-  test::checkEnumTable(JointStatus::kFound);
 }
 
 }  // namespace

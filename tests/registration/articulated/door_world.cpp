@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/registration/articulated/door_world.h"
 
+#include <gtest/gtest.h>
+
 #include <opencv2/core.hpp>
 
 #include "core/model/primitives.h"
 
 namespace oikos::registration {
+
+void expectSame(const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b, double tolerance_m, double tolerance_rad) {
+  EXPECT_LT((T_a.translation() - T_b.translation()).norm(), tolerance_m);
+  EXPECT_LT(Eigen::AngleAxisd(T_a.linear().transpose() * T_b.linear()).angle(), tolerance_rad);
+}
 
 std::shared_ptr<const model::TriangleMesh> cuboid(const Eigen::AlignedBox3d& box_part) {
   model::TriangleMesh mesh = model::makeBox(Eigen::Vector3d(box_part.sizes()).cast<float>());

@@ -14,6 +14,13 @@ namespace oikos::registration {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+// Depths are exact, but a pixel in four rows and columns is looked at, and a door's place is taken to be uncertain by 4 mm.
+constexpr double kDoorTolerance_rad = 0.5 * kDegree;
+constexpr double kDrawerTolerance_m = 0.004;
+
+/// Expects two poses to be the same but for this.
+void expectSame(const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b, double tolerance_m, double tolerance_rad);
+
 /// An upright box of the room, from corner to corner in the model's frame.
 struct Obstacle {
   Eigen::AlignedBox3d box_model;
