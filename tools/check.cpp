@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "semantic/model/home_check.h"
+#include "semantic/model/file_check.h"
 #include "semantic/xml/home_reader.h"
 #include "tools/command.h"
 

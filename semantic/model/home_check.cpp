@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -14,6 +12,8 @@
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 #include "core/model/shapes/shape_text.h"
+#include "semantic/model/articulation_check.h"
+#include "semantic/model/check_words.h"
 #include "semantic/model/home_models.h"
 #include "semantic/model/outline.h"
 #include "semantic/model/placement.h"
@@ -28,14 +28,6 @@ enum class Kind { kRoom, kSwitch, kObject, kPart, kJoint, kHandle, kKnob, kSmall
 constexpr const char* nameOf(Kind kind) {
   constexpr std::array<const char*, 8> names{"room", "switch", "object", "part", "joint", "handle", "knob", "small object"};
   return names[static_cast<std::size_t>(kind)];
-}
-
-std::string quoted(const std::string& text) {
-  return "'" + text + "'";
-}
-
-bool isDirection(const Eigen::Vector3d& axis) {
-  return std::abs(axis.norm() - 1.0) < 1e-3;
 }
 
 class Checker {
@@ -171,9 +163,7 @@ class Checker {
     if (defaults != 1) {
       error(line, element, std::to_string(defaults) + " default parking poses", "exactly one <parkingPose default=\"true\">");
     }
-    if (object.articulation) {
-      checkArticulation(*object.articulation, object, element);
-    }
+    checkArticulation(object, findings_);
     checkShape(object.shape, element, line);
     checkGraspingPoints(object.grasping_points, object, element, line);
     for (const SmallObject& small : object.small_objects) {
@@ -194,101 +184,6 @@ class Checker {
       if (!point.part.value.empty() && !hasPart(object, point.part.value)) {
         error(line, element, "a grasping point on part " + quoted(point.part.value), "a part of this object");
       }
-    }
-  }
-
-  [[nodiscard]] static bool hasPart(const LargeObject& object, const std::string& part) {
-    return object.articulation && std::any_of(object.articulation->parts.begin(), object.articulation->parts.end(),
-                                              [&](const Part& p) { return p.id.value == part; });
-  }
-
-  void checkArticulation(const Articulation& articulation, const LargeObject& object, const std::string& element) {
-    const auto bases =
-        std::count_if(articulation.parts.begin(), articulation.parts.end(), [](const Part& p) { return p.parent.value.empty(); });
-    if (bases != 1) {
-      error(object.line.number, element, std::to_string(bases) + " parts without a parent", "exactly one: the base part");
-    }
-    for (const Part& part : articulation.parts) {
-      checkPart(part, articulation, object);
-    }
-    std::set<std::string> moved;
-    for (const Joint& joint : articulation.joints) {
-      checkJoint(joint, articulation, object);
-      if (!moved.insert(joint.child.value).second) {
-        error(joint.line.number, "joint " + quoted(joint.id.value), "a second joint of part " + quoted(joint.child.value),
-              "one joint a part");
-      }
-    }
-    for (const Handle& handle : articulation.handles) {
-      if (!hasPart(object, handle.part.value)) {
-        error(handle.line.number, "handle " + quoted(handle.id), "part " + quoted(handle.part.value), "a part of " + element);
-      }
-    }
-    for (const Knob& knob : articulation.knobs) {
-      checkKnob(knob, object, element);
-    }
-  }
-
-  void checkPart(const Part& part, const Articulation& articulation, const LargeObject& object) {
-    const std::string element = "part " + quoted(part.id.value);
-    if (part.parent.value.empty()) {
-      return;
-    }
-    if (!hasPart(object, part.parent.value)) {
-      error(part.line.number, element, "parent " + quoted(part.parent.value), "a part of object " + quoted(object.id.value));
-    } else if (!findPartInObject(articulation, part.id)) {
-      error(part.line.number, element, "a parent that leads back to itself, or to no base part",
-            "a chain of parents that ends at the base part");
-    }
-  }
-
-  void checkJoint(const Joint& joint, const Articulation& articulation, const LargeObject& object) {
-    const std::string element = "joint " + quoted(joint.id.value);
-    const int line = joint.line.number;
-    for (const auto& [role, part] : {std::pair("parent", joint.parent.value), std::pair("child", joint.child.value)}) {
-      if (!hasPart(object, part)) {
-        error(line, element, role + (" " + quoted(part)), "a part of object " + quoted(object.id.value));
-      }
-    }
-    const auto child =
-        std::find_if(articulation.parts.begin(), articulation.parts.end(), [&](const Part& p) { return p.id == joint.child; });
-    if (child != articulation.parts.end() && child->parent != joint.parent) {
-      error(line, element, "parent " + quoted(joint.parent.value) + " of a part whose parent is " + quoted(child->parent.value),
-            "the same");
-    }
-    if (!isDirection(joint.axis_joint)) {
-      error(line, element, "an axis of length " + base::toFixedText(joint.axis_joint.norm(), 4), "length 1");
-    }
-    const bool turns = joint.type == JointType::kRevolute;
-    const auto text = [&](double value) {
-      return base::toText(std::round((turns ? value / kRadPerDeg : value) * 1e6) / 1e6) + (turns ? " deg" : " m");
-    };
-    constexpr double kSlack = 1e-9;
-    if (joint.lower > joint.upper) {
-      error(line, element, "limits " + text(joint.lower) + " to " + text(joint.upper), "the lower one first");
-    } else if (joint.value < joint.lower - kSlack || joint.value > joint.upper + kSlack) {
-      error(line, element, "value " + text(joint.value), "within " + text(joint.lower) + " to " + text(joint.upper));
-    }
-  }
-
-  void checkKnob(const Knob& knob, const LargeObject& object, const std::string& object_name) {
-    const std::string element = "knob " + quoted(knob.id.value);
-    if (!hasPart(object, knob.part.value)) {
-      error(knob.line.number, element, "part " + quoted(knob.part.value), "a part of " + object_name);
-    }
-    if (!isDirection(knob.axis_knob)) {
-      error(knob.line.number, element, "an axis of length " + base::toFixedText(knob.axis_knob.norm(), 4), "length 1");
-    }
-    std::set<std::string> names;
-    std::string all;
-    for (const KnobState& state : knob.states) {
-      if (!names.insert(state.name).second) {
-        error(knob.line.number, element, "two states " + quoted(state.name), "a name of its own for each");
-      }
-      all += (all.empty() ? "" : ", ") + state.name;
-    }
-    if (!names.contains(knob.current)) {
-      error(knob.line.number, element, "current state " + quoted(knob.current), "one of " + all);
     }
   }
 
@@ -358,38 +253,6 @@ class Checker {
 
 std::vector<Finding> checkHome(const Home& home) {
   return Checker(home).run();
-}
-
-std::vector<Finding> checkFiles(const Home& home, const std::filesystem::path& folder) {
-  std::vector<Finding> findings;
-  std::map<std::string, bool> is_there;
-  const auto check = [&](const std::string& file, const std::string& element, SourceLine line) {
-    if (file.empty()) {
-      return;
-    }
-    std::error_code ignored;
-    const auto [entry, is_new] = is_there.try_emplace(file, false);
-    entry->second = is_new ? std::filesystem::is_regular_file(folder / file, ignored) : entry->second;
-    if (!entry->second) {
-      findings.push_back({Severity::kWarning, line.number, element, "'" + file + "', which is missing", "a file below the home's folder"});
-    }
-  };
-  for (const Room& room : home.rooms) {
-    check(room.cloud, "room " + quoted(room.id.value), room.line);
-    for (const SmallObject& small : room.small_objects) {
-      check(small.model, "small object " + quoted(small.id.value), small.line);
-    }
-    for (const LargeObject& object : room.objects) {
-      check(object.model, "object " + quoted(object.id.value), object.line);
-      for (const Part& part : object.articulation ? object.articulation->parts : std::vector<Part>{}) {
-        check(part.model, "part " + quoted(part.id.value), part.line);
-      }
-      for (const SmallObject& small : object.small_objects) {
-        check(small.model, "small object " + quoted(small.id.value), small.line);
-      }
-    }
-  }
-  return findings;
 }
 
 }  // namespace oikos::semantic

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "semantic/model/finding.h"
@@ -13,8 +12,5 @@ namespace oikos::semantic {
 /// more than one, joints that form no tree, values outside limits, a knob in none of its states, axes without direction, shapes
 /// that cannot be made. Warnings: words that the vocabulary lacks, furniture outside its room, a stored relation that the boxes contradict.
 [[nodiscard]] std::vector<Finding> checkHome(const Home& home);
-
-/// Warnings for model and cloud files that are not below the home's folder.
-[[nodiscard]] std::vector<Finding> checkFiles(const Home& home, const std::filesystem::path& folder);
 
 }  // namespace oikos::semantic

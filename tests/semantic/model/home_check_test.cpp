@@ -7,16 +7,13 @@
 #include <algorithm>
 #include <string>
 
-#include "semantic/xml/home_reader.h"
+#include "semantic/model/file_check.h"
+#include "tests/semantic/papers_house.h"
 #include "tests/support/enum_table_check.h"
 #include "tests/support/temporary_folder.h"
 
 namespace oikos::semantic {
 namespace {
-
-Home papersHouse() {
-  return readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml").home;
-}
 
 void expectOnly(const std::vector<Finding>& findings, Severity severity, const std::string& element, const std::string& part) {
   ASSERT_EQ(findings.size(), 1U);
