@@ -8,9 +8,10 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-#include "core/model/primitives.h"
 #include "semantic/model/placement.h"
 #include "tests/registration/furniture_scan.h"
+#include "tests/support/analytic_room.h"
+#include "tests/tracking/home_scene.h"
 
 namespace oikos::tracking {
 namespace {
@@ -46,26 +47,15 @@ Home cornerHome() {
   return home;
 }
 
-void addBox(render::Scene& scene, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  const Eigen::AlignedBox3d bounds(low, high);
-  scene.add(std::make_shared<const model::TriangleMesh>(model::makeBoxBetween(bounds.cast<float>())), Eigen::Isometry3d::Identity());
-}
-
 /// What is really there, and perhaps a parcel on the floor.
 render::Scene sceneOf(const Home& home, bool has_parcel) {
-  semantic::ModelMaker maker({});
   render::Scene scene;
-  addBox(scene, {-1.0, -2.0, -0.1}, {3.0, 2.0, 0.0});
-  addBox(scene, {-1.1, -2.0, 0.0}, {-1.0, 2.0, 2.5});
+  addBox(scene, {-1.0F, -2.0F, -0.1F}, {3.0F, 2.0F, 0.0F});
+  addBox(scene, {-1.1F, -2.0F, 0.0F}, {-1.0F, 2.0F, 2.5F});
   if (has_parcel) {
-    addBox(scene, {0.4, -0.5, 0.0}, {0.8, -0.1, 0.35});
+    addBox(scene, {0.4F, -0.5F, 0.0F}, {0.8F, -0.1F, 0.35F});
   }
-  for (const semantic::LargeObject& object : home.rooms[0].objects) {
-    scene.add(maker.make(object), object.T_map_object.toIsometry(), semantic::jointValues(object));
-    for (const semantic::SmallObject& one : object.small_objects) {
-      scene.add(maker.make(one), *semantic::findCarrierInMap(object, one.parent) * one.T_parent_object.toIsometry(), {});
-    }
-  }
+  addFurniture(scene, home);
   scene.commit();
   return scene;
 }
@@ -79,12 +69,7 @@ Eigen::Isometry3d cameraAt(int i) {
   const Eigen::Vector3d target(-0.3, 0.0, 0.3);
   Eigen::Vector3d eye = target + 2.2 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
   eye.z() = 1.2 + 0.1 * (i % 2);
-  Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d forward = (target - eye).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  T_map_camera.linear() << right, forward.cross(right), forward;
-  T_map_camera.translation() = eye;
-  return T_map_camera;
+  return test::lookAt(eye, target);
 }
 
 class ChangeBoxes : public testing::Test {

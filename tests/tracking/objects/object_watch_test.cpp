@@ -10,9 +10,10 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "core/model/primitives.h"
 #include "semantic/model/placement.h"
 #include "tests/registration/furniture_scan.h"
+#include "tests/support/analytic_room.h"
+#include "tests/tracking/home_scene.h"
 
 namespace oikos::tracking {
 namespace {
@@ -98,40 +99,18 @@ Home without(Home home, const std::string& id) {
 
 /// What is really there: the home as it is, and perhaps a post.
 render::Scene sceneOf(const Home& home, const std::optional<Eigen::Vector3d>& post_map = std::nullopt) {
-  semantic::ModelMaker maker({});
   render::Scene scene;
-  const auto addBox = [&](const Eigen::AlignedBox3f& bounds) {
-    model::TriangleMesh mesh = model::makeBoxBetween(bounds);
-    mesh.materials.assign(1, {});
-    mesh.materials[0].color_rgb = {0.7F, 0.7F, 0.65F};
-    mesh.triangle_materials.assign(mesh.triangles.size(), 0);
-    scene.add(std::make_shared<const model::TriangleMesh>(std::move(mesh)), Eigen::Isometry3d::Identity());
-  };
-  addBox({Eigen::Vector3f(-2.5F, -2.0F, -0.1F), Eigen::Vector3f(2.0F, 2.0F, 0.0F)});
-  addBox({Eigen::Vector3f(2.0F, -2.0F, 0.0F), Eigen::Vector3f(2.1F, 2.0F, 2.5F)});
-  addBox({Eigen::Vector3f(-2.5F, 2.0F, 0.0F), Eigen::Vector3f(2.0F, 2.1F, 2.5F)});
+  addBox(scene, {-2.5F, -2.0F, -0.1F}, {2.0F, 2.0F, 0.0F});
+  addBox(scene, {2.0F, -2.0F, 0.0F}, {2.1F, 2.0F, 2.5F});
+  addBox(scene, {-2.5F, 2.0F, 0.0F}, {2.0F, 2.1F, 2.5F});
   if (post_map) {
     const Eigen::Vector3f half(0.1F, 0.1F, 0.0F);
     const Eigen::Vector3f middle = post_map->cast<float>();
-    addBox({middle - half, middle + half + Eigen::Vector3f(0.0F, 0.0F, 1.8F)});
+    addBox(scene, middle - half, middle + half + Eigen::Vector3f(0.0F, 0.0F, 1.8F));
   }
-  for (const semantic::LargeObject& object : home.rooms[0].objects) {
-    scene.add(maker.make(object), object.T_map_object.toIsometry(), semantic::jointValues(object));
-    for (const semantic::SmallObject& one : object.small_objects) {
-      scene.add(maker.make(one), *semantic::findCarrierInMap(object, one.parent) * one.T_parent_object.toIsometry(), {});
-    }
-  }
+  addFurniture(scene, home);
   scene.commit();
   return scene;
-}
-
-Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
-  Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d forward = (target - eye).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  T_map_camera.linear() << right, forward.cross(right), forward;
-  T_map_camera.translation() = eye;
-  return T_map_camera;
 }
 
 geometry::Vector6d poseSigma() {
@@ -154,7 +133,7 @@ struct Drive {
     const double angle = (150.0 + 9.0 * frame) * kDegree;
     Eigen::Vector3d eye = target_map + distance_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
     eye.z() = height_m;
-    return lookAt(eye, target_map);
+    return test::lookAt(eye, target_map);
   }
   [[nodiscard]] WatchFrame believed(int frame) const {
     std::mt19937_64 random(100 * seed + static_cast<std::uint64_t>(frame));
