@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/camera/pinhole_camera.h"
-#include "registration/articulated/articulated_registration.h"
+#include "registration/articulated/articulated_config.h"
 #include "registration/articulated/joint_decision.h"
 #include "registration/articulated/joint_profile.h"
 #include "registration/articulated/joint_solver.h"
