@@ -3,17 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "semantic/xml/home_reader.h"
+#include "tests/semantic/papers_house.h"
 #include "tests/support/random_home.h"
 
 namespace oikos::semantic {
 namespace {
-
-Home papersHouse() {
-  return readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml").home;
-}
 
 Event onlyEdit(const Home& before, const Home& after) {
   const std::vector<Event> events = editsBetween(before, after, 42);

@@ -7,13 +7,10 @@
 
 #include "semantic/model/placement.h"
 #include "semantic/xml/home_reader.h"
+#include "tests/semantic/papers_house.h"
 
 namespace oikos::semantic {
 namespace {
-
-Home papersHouse() {
-  return readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml").home;
-}
 
 Home demoHome() {
   return readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/household/home.xml").home;

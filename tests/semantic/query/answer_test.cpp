@@ -8,17 +8,12 @@
 #include <vector>
 
 #include "semantic/xml/home_reader.h"
+#include "tests/semantic/papers_house.h"
+#include "tests/semantic/query/ask.h"
 #include "tests/support/enum_table_check.h"
-#include "tests/support/temporary_folder.h"
 
 namespace oikos::semantic {
 namespace {
-
-constexpr std::int64_t kNow_ns = 1'773'338'400'000'000'000;  // 2026-03-12T18:00:00Z
-
-Home papersHouse() {
-  return readHome(std::filesystem::path(OIKOS_SOURCE_DIR) / "homes/papers/home.xml").home;
-}
 
 /// The papers' house after a while: the left cupboard door stands open, the blue cup is behind it, a bowl is on the bathroom's floor.
 Home laterHouse() {
@@ -37,11 +32,6 @@ Home laterHouse() {
   on_table.erase(on_table.begin() + 3);
   on_table.erase(on_table.begin() + 1);
   return home;
-}
-
-Answer ask(const Home& home, const std::string& question) {
-  const HomeIndex index(home);
-  return answerQuestion({&index, nullptr, kNow_ns, std::nullopt}, question);
 }
 
 struct Row {
@@ -223,149 +213,6 @@ TEST(Answer, AsJson) {
   EXPECT_EQ(json["found"][0]["parking_poses_map"].size(), 3U);
   EXPECT_TRUE(json["found"][0]["last_seen"].is_null());
   EXPECT_TRUE(nlohmann::json::accept(toJson(ask(home, "where is \xFF\xFE"))));
-}
-
-TEST(Answer, WhatWasSeenLongAgoIsLessSureAndMayBeExpectedElsewhere) {
-  Home home = papersHouse();
-  auto& on_table = home.rooms[0].objects[0].edit().small_objects;
-  SmallObject& cup = *std::find_if(on_table.begin(), on_table.end(), [](const SmallObject& small) { return small.id.value == "blue-cup"; });
-  constexpr std::int64_t kDay_ns = 86'400'000'000'000;
-  cup.last_seen_ns = kNow_ns - kDay_ns;  // a cup's half-life
-  cup.confidence = 1.0;
-  const FoundThing yesterday = ask(home, "where is the blue cup").found.at(0);
-  // It is put away to the table (a usual place, and seen to have come there), the cupboard (a usual place), or elsewhere, as 2 : 1 : 1.
-  EXPECT_NEAR(yesterday.confidence.value(), 0.5 + 0.5 * 2 / 4, 1e-9);
-  EXPECT_NEAR(yesterday.elsewhere.value(), 0.5 * 1 / 4, 1e-9);
-  ASSERT_FALSE(yesterday.expected_at.empty());
-  EXPECT_EQ(yesterday.expected_at.front().place.parent, cup.parent);
-  home.vocabulary.edit().add(TermKind::kObjectType, {"cup", {}, 24000.0});
-  EXPECT_GT(ask(home, "where is the blue cup").found.at(0).confidence.value(), 0.999) << "cups stay longer in this home";
-}
-
-TEST(Answer, WhatWasMissedIsSaidToHaveBeenLookedForInVain) {
-  const Home home = papersHouse();
-  const HomeIndex index(home);
-  const test::TemporaryFolder folder;
-  History history(folder.path() / "history.sqlite", HistoryAccess::kAppend);
-  const SmallObject& cup = home.rooms[0].objects[0]->small_objects[3];
-  ASSERT_EQ(cup.id.value, "blue-cup");
-  Event missed;
-  missed.kind = EventKind::kMissed;
-  missed.subject = cup.id.value;
-  missed.time_ns = kNow_ns - 3'600'000'000'000;
-  missed.after = Placement{cup.parent, cup.relation, cup.T_parent_object};
-  missed.confidence = 0.999;
-  history.append(std::vector{missed});
-  const Answer answer = answerQuestion({&index, &history, kNow_ns, std::nullopt}, "where is the blue cup");
-  EXPECT_NE(answer.sentence.find("but was looked for there in vain"), std::string::npos) << answer.sentence;
-  EXPECT_EQ(answer.found.at(0).missed_ns, missed.time_ns);
-  EXPECT_FALSE(nlohmann::json::parse(toJson(answer))["found"][0]["missed"].is_null());
-  const Answer several = answerQuestion({&index, &history, kNow_ns, std::nullopt}, "where are the cups");
-  const std::string& both = several.sentence;
-  ASSERT_EQ(several.found.size(), 2U) << both;
-  EXPECT_EQ(both.find("in vain"), both.rfind("in vain")) << both;
-  EXPECT_NE(both.find("in vain", both.find("blue cup")), std::string::npos) << "not of the red one: " << both;
-  EXPECT_FALSE(several.found[0].missed_ns);
-  EXPECT_EQ(several.found[1].missed_ns, missed.time_ns);
-  const auto json = nlohmann::json::parse(toJson(several))["found"];
-  EXPECT_TRUE(json[0]["missed"].is_null());
-  EXPECT_FALSE(json[1]["missed"].is_null());
-  const Answer changes = answerQuestion({&index, &history, kNow_ns, std::nullopt}, "what has changed today");
-  ASSERT_EQ(changes.changes.size(), 1U) << changes.sentence;
-  EXPECT_NE(changes.sentence.find("not where it was expected"), std::string::npos) << changes.sentence;
-
-  Event again = missed;
-  again.time_ns += 60'000'000'000;
-  history.append(std::vector{again});
-  EXPECT_EQ(answerQuestion({&index, &history, kNow_ns, std::nullopt}, "what has changed today").changes.size(), 1U) << "no news";
-  Event seen = again;
-  seen.kind = EventKind::kSighted;
-  seen.time_ns += 60'000'000'000;
-  history.append(std::vector{seen});
-  const Answer found = answerQuestion({&index, &history, kNow_ns, std::nullopt}, "where is the blue cup");
-  EXPECT_EQ(found.sentence.find("in vain"), std::string::npos) << found.sentence;
-  EXPECT_FALSE(found.found.at(0).missed_ns);
-}
-
-TEST(Answer, NoTextThrows) {
-  const Home home = papersHouse();
-  const HomeIndex index(home);
-  const std::vector<std::string> words{"where",  "what",    "which",     "is",     "are",      "how",     "many",    "far",    "open",
-                                       "closed", "set",     "to",        "on",     "in",       "the",     "cup",     "table",  "fridge",
-                                       "there",  "find",    "s",         "",       "\xFF",     "kitchen", "bring",   "second", "drawer",
-                                       "of",     "nearest", "yesterday", "at",     "8",        "when",    "changed", "left",   "that",
-                                       "and",    "last",    "seen",      "do",     "anything", "but",     "not",     "or",     "every",
-                                       "it",     ",",       "isn't",     "anyone", "i",        "got",     "has",     "one",    "two"};
-  std::uint32_t state = 7;
-  for (int i = 0; i < 20000; ++i) {
-    std::string question;
-    for (int k = 0; k < 6; ++k) {
-      state = state * 1664525U + 1013904223U;
-      question += words[(state >> 16) % words.size()] + " ";
-    }
-    EXPECT_NO_THROW((void)answerQuestion({&index, nullptr, kNow_ns, std::nullopt}, question)) << question;
-  }
-}
-
-TEST(Answer, HostileTextIsRefusedOrAnswered) {
-  const Home home = papersHouse();
-  std::string many;
-  for (int i = 0; i < 200000; ++i) {
-    many += "cup ";
-  }
-  EXPECT_NE(ask(home, many).sentence.find("too long"), std::string::npos);
-  EXPECT_NE(ask(home, many.substr(0, 300)).sentence.find("64 words"), std::string::npos);
-  std::string nested = "where is";
-  for (int i = 0; i < 20; ++i) {
-    nested += " cup on the";
-  }
-  EXPECT_FALSE(ask(home, nested + " table").sentence.empty());
-  EXPECT_EQ(ask(home, std::string("where is the blue\0cup", 21)).found.size(), 1U);
-  EXPECT_EQ(ask(home, "where is the \xC3\x28 cup").status, kUnknown);
-  EXPECT_EQ(ask(home, "where is the cup in 99999999999999999999 days ago").status, kUnknown);
-}
-
-TEST(Answer, WhatIsNotKnownIsNoCertainNo) {
-  const Home home = papersHouse();
-  for (const char* question :
-       {"is the fridge full", "is the blue cup clean", "is the cup in the bathtub", "is there a freezer in the kitchen",
-        "how many ukuleles are there", "which cups are not on the table", "where is the ball"}) {
-    EXPECT_NE(ask(home, question).status, kAnswered) << question << "\n" << ask(home, question).sentence;
-  }
-  EXPECT_EQ(ask(home, "is anything open").yes, false);
-  EXPECT_EQ(ask(home, "are the doors closed").yes, true);
-}
-
-TEST(Answer, AHomeHasItsOwnSurplusWords) {
-  Home home = papersHouse();
-  const std::string question = "old chap where is the blue cup guv";
-  EXPECT_EQ(ask(home, question).status, kNotUnderstood);
-  home.vocabulary.edit().add(TermKind::kSurplus, {"guv", {"old chap"}});
-  EXPECT_EQ(ask(home, question).status, kAnswered);
-  EXPECT_EQ(ask(home, "where is the cup on the right").status, ask(papersHouse(), "where is the cup on the right").status);
-}
-
-TEST(Answer, AnUnfinishedQuestionIsNotUnderstood) {
-  for (const char* question : {"anything but", "anything", "is", "is not", "has anything", "are there five cups"}) {
-    EXPECT_NE(ask(papersHouse(), question).status, kUnknown) << question;
-    EXPECT_FALSE(ask(papersHouse(), question).yes) << question;
-    EXPECT_FALSE(ask(papersHouse(), question).sentence.empty()) << question;
-  }
-}
-
-TEST(Answer, NamesWhatItPassedOver) {
-  const Answer answer = ask(papersHouse(), "Where is the blue cup, Marvin?");
-  EXPECT_EQ(answer.status, kAnswered);
-  EXPECT_EQ(answer.not_understood, std::vector<std::string>{"marvin"});
-}
-
-TEST(Answer, StatesAndGrammarAreNoMisspeltThings) {
-  const Home home = papersHouse();
-  for (const char* question : {"where is the open", "where is the cup know", "is the blue cup shut on", "which cups are still"}) {
-    EXPECT_TRUE(ask(home, question).corrected.empty()) << question;
-  }
-  EXPECT_TRUE(ask(home, "where is my dear").suggestions.empty());
-  EXPECT_EQ(ask(home, "where is my suger").corrected.size(), 1U);
 }
 
 TEST(Answer, EnumTable) {
