@@ -10,20 +10,11 @@
 #include "core/render/camera_rays.h"
 #include "core/render/view.h"
 #include "semantic/model/placement.h"
+#include "tests/support/analytic_room.h"
 
 namespace oikos::bench {
 
 namespace {
-
-/// A camera on a robot that looks at a point.
-Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye_map, const Eigen::Vector3d& target_map) {
-  Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d forward = (target_map - eye_map).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  T_map_camera.linear() << right, forward.cross(right), forward;
-  T_map_camera.translation() = eye_map;
-  return T_map_camera;
-}
 
 /// Not in furniture, a wall or a neighbouring room: from there nothing is before the target.
 bool isFree(const Eigen::Vector3d& eye_map, const Eigen::Vector3d& target_map, const simulate::World& world) {
@@ -34,7 +25,7 @@ bool isFree(const Eigen::Vector3d& eye_map, const Eigen::Vector3d& target_map, c
   }
   const camera::PinholeCamera ray{1, 1, 1.0, 1.0, 0.0, 0.0};
   const render::View view =
-      render::renderView(world.scene(), render::CameraRays(ray), {lookAt(eye_map, target_map), {}}, render::ViewConfig());
+      render::renderView(world.scene(), render::CameraRays(ray), {test::lookAt(eye_map, target_map), {}}, render::ViewConfig());
   return static_cast<double>(view.depth_m.at<float>(0, 0)) > (target_map - eye_map).norm() - 0.35;
 }
 
@@ -73,7 +64,7 @@ std::vector<Eigen::Isometry3d> drivePast(const Carrier& carrier, const simulate:
       eye.z() = height_m;
       if (isFree(eye, target, world)) {
         const Eigen::Vector3d aside = 0.1 * Eigen::Vector3d(share(random) - 0.5, share(random) - 0.5, share(random) - 0.5);
-        drive.push_back(lookAt(eye, target + aside));
+        drive.push_back(test::lookAt(eye, target + aside));
       }
     }
     if (static_cast<int>(drive.size()) == views) {

@@ -12,6 +12,7 @@
 #include "core/base/degrees.h"
 #include "core/base/enum_table.h"
 #include "core/geometry/se3.h"
+#include "tests/registration/furniture_scan.h"
 #include "tools/simulate/scene_script.h"
 #include "tools/simulate/true_home.h"
 
@@ -137,13 +138,14 @@ class SceneRun {
 
   [[nodiscard]] Images imagesOf(const std::vector<Eigen::Isometry3d>& drive) {
     const auto kind = base::findEnum<camera::DepthSensorKind>(options_.sensor).value();
+    const camera::PinholeCamera camera = test::kinectCamera();
     Images images;
     for (std::size_t i = 0; i < drive.size(); ++i) {
       images.frames.push_back(believedFrame(static_cast<int>(i), drive[i], options_, random_));
       camera::RgbdFrame image;
       image.index = static_cast<int>(i);
       image.stamp_ns = images.frames.back().stamp_ns;
-      image.depth_m = senseDepth(world_, drive[i], kind, random_());
+      image.depth_m = test::sensed(test::viewOf(world_.scene(), camera, drive[i]), camera, kind, random_());
       images.depths.push_back(std::move(image));
     }
     return images;
@@ -151,7 +153,7 @@ class SceneRun {
 
   [[nodiscard]] std::vector<tracking::ObjectReading> watch(const Images& images) {
     const std::clock_t begin = std::clock();
-    tracking::ObjectWatch watch(believed_, OIKOS_DEMO_HOME, {}, images.frames, missedCamera(), config_);
+    tracking::ObjectWatch watch(believed_, OIKOS_DEMO_HOME, {}, images.frames, test::kinectCamera(), config_);
     for (std::vector<int> wanted = watch.wanted(); !wanted.empty(); wanted = watch.wanted()) {
       for (const int number : wanted) {
         watch.look(images.depths[static_cast<std::size_t>(number)], images.frames[static_cast<std::size_t>(number)]);

@@ -2,11 +2,11 @@
 #include "bench/missed/view_truth.h"
 
 #include <algorithm>
-#include <limits>
 #include <opencv2/core.hpp>
 
 #include "core/render/camera_rays.h"
 #include "core/render/view.h"
+#include "tests/registration/furniture_scan.h"
 
 namespace oikos::bench {
 
@@ -35,21 +35,17 @@ std::size_t pixelsAlone(int model, const render::Scene& scene, const Eigen::Isom
   }
   alone.commit();
   return static_cast<std::size_t>(
-      cv::countNonZero(render::renderView(alone, render::CameraRays(missedCamera()), {T_map_camera, {}}, config).part >= 0));
+      cv::countNonZero(render::renderView(alone, render::CameraRays(test::kinectCamera()), {T_map_camera, {}}, config).part >= 0));
 }
 
 }  // namespace
-
-camera::PinholeCamera missedCamera() {
-  return {640, 480, 525.0, 525.0, 319.5, 239.5};
-}
 
 std::map<std::string, Pixels> seenIn(const simulate::World& world, const Eigen::Isometry3d& T_map_camera) {
   constexpr std::size_t kMinPixels = 150;
   constexpr double kMaxRange_m = 3.4;
   render::ViewConfig config;
   config.with_parts = true;
-  const camera::PinholeCamera camera = missedCamera();
+  const camera::PinholeCamera camera = test::kinectCamera();
   const render::View all = render::renderView(world.scene(), render::CameraRays(camera), {T_map_camera, {}}, config);
   std::map<std::string, Pixels> seen;
   for (const auto& [id, small] : world.smallPieces()) {
@@ -71,26 +67,6 @@ bool isMeasured(const Pixels& pixels, const cv::Mat& depth_m) {
   const auto measured =
       std::count_if(pixels.begin(), pixels.end(), [&](const cv::Point& pixel) { return depth_m.at<float>(pixel) > 0.0F; });
   return 2 * static_cast<std::size_t>(measured) >= pixels.size();
-}
-
-cv::Mat senseDepth(const simulate::World& world, const Eigen::Isometry3d& T_map_camera, camera::DepthSensorKind kind, std::uint64_t seed) {
-  render::ViewConfig config;
-  config.with_normals = true;
-  config.with_surface = true;
-  const camera::PinholeCamera camera = missedCamera();
-  const render::View view = render::renderView(world.scene(), render::CameraRays(camera), {T_map_camera, {}}, config);
-  camera::IdealView ideal;
-  ideal.depth_m = view.depth_m;
-  ideal.normal_camera = view.normal_camera;
-  ideal.gloss = view.gloss;
-  ideal.reflectivity = view.albedo;
-  camera::DepthSensorConfig sensor;
-  sensor.kind = kind;
-  const cv::Mat units = camera::senseDepth(ideal, camera, sensor, {.seed = seed});
-  cv::Mat depth_m;
-  units.convertTo(depth_m, CV_32FC1, 1.0 / sensor.units_per_m);
-  depth_m.setTo(std::numeric_limits<float>::quiet_NaN(), units == 0);
-  return depth_m;
 }
 
 }  // namespace oikos::bench
