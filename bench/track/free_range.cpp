@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -66,9 +67,10 @@ double freeUpperOf(const semantic::LargeObject& object, std::size_t joint, const
   const auto part = static_cast<std::size_t>(moving.child);
   const std::vector<Eigen::Vector3d> points_part = pointsOf(*model.parts[part].mesh_part);
   std::vector<double> values = semantic::jointValues(object);
+  const int steps = static_cast<int>(std::floor(moving.upper / step + 1e-9));
   double free = 0.0;
-  for (double value = step; value <= moving.upper + 1e-9; value += step) {
-    values[joint] = value;
+  for (int i = 1; i <= steps; ++i) {
+    values[joint] = i * step;
     const Eigen::Isometry3d T_map_part = object.T_map_object.toIsometry() * kinematics.solve(values)[part];
     const bool is_blocked = std::any_of(points_part.begin(), points_part.end(), [&](const Eigen::Vector3d& point_part) {
       return isBlocked(T_map_part * point_part, room, obstacles, object.id.value);
@@ -76,7 +78,7 @@ double freeUpperOf(const semantic::LargeObject& object, std::size_t joint, const
     if (is_blocked) {
       break;
     }
-    free = value;
+    free = values[joint];
   }
   return turns ? free / base::kRadPerDeg : free;
 }

@@ -106,7 +106,7 @@ std::string_view PlySource::nextLine() {
     fail("the file ends here, more was announced");
   }
   const std::size_t end = std::min(bytes_.find('\n', position_), bytes_.size());
-  std::string_view line(bytes_.data() + position_, end - position_);
+  const std::string_view line(bytes_.data() + position_, end - position_);
   position_ = std::min(end + 1, bytes_.size());
   ++line_;
   return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
